@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+# Versions and reasons stand in README.md; how Debian names each target, here.
+find_package(Threads REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(octomap REQUIRED)
+find_package(PCL REQUIRED COMPONENTS common io)
+find_package(Protobuf REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(PNG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
+if(NOT WARREN_FUZZ)
+  find_package(doctest REQUIRED)
+  find_package(rapidcheck REQUIRED)
+  include(doctest)
+endif()
+
+# Foreign headers are not ours to warn about: octomap and PCL come in as SYSTEM.
+add_library(warren_octomap INTERFACE)
+target_include_directories(warren_octomap SYSTEM INTERFACE ${OCTOMAP_INCLUDE_DIRS})
+target_link_libraries(warren_octomap INTERFACE octomap octomath)
+add_library(warren_pcl INTERFACE)
+target_include_directories(warren_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+target_link_libraries(warren_pcl INTERFACE ${PCL_LIBRARIES})

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/voxel/block_store.hpp"
+#include "core/voxel/key.hpp"
+#include "core/voxel/scan.hpp"
+#include "core/voxel/sensor_model.hpp"
+
+namespace warren {
+
+class ScanMarker;
+
+struct SelfMapConfig {
+  double resolution_m = 0.1;
+  SensorModel sensor_model;
+  // One ray per end voxel, to its centre: faster, not quite the same map (OctoMap's `discretize`).
+  bool one_ray_per_end_voxel = false;
+};
+
+struct IntegrationReport {
+  std::uint64_t rays = 0;
+  std::uint64_t voxels_hit = 0;
+  std::uint64_t voxels_passed = 0;   // passed, not hit, and not yet at the free clamp
+  std::uint64_t blocks_changed = 0;
+  RejectionCounts rejected{};
+};
+
+struct MapCounts {
+  std::uint64_t free = 0;
+  std::uint64_t occupied = 0;
+  std::uint64_t blocks = 0;
+};
+
+struct RayHit {
+  VoxelKey key;
+  VoxelState state = VoxelState::kUnknown;  // occupied; or unknown, if such stops the ray
+  double range_m = 0.0;                     // from the origin to where the ray enters the voxel
+};
+
+struct RayQuery {
+  Point3f origin_layer;
+  Point3f direction_layer;  // any length but zero
+  double max_range_m = 0.0;
+  bool unknown_stops = true;
+};
+
+// The occupancy map that one robot measured itself, in one layer. After any sequence of scans every
+// voxel's state equals that of octomap::OcTree::insertPointCloud with the same parameters.
+// Copies are independent snapshots. One thread at a time.
+class SelfMap {
+ public:
+  explicit SelfMap(const SelfMapConfig& config);
+  ~SelfMap();
+  SelfMap(const SelfMap&);
+  SelfMap& operator=(const SelfMap&);
+  SelfMap(SelfMap&&) noexcept;
+  SelfMap& operator=(SelfMap&&) noexcept;
+
+  const SelfMapConfig& config() const { return config_; }
+  const Lattice& lattice() const { return lattice_; }
+
+  // Adds one scan. Each voxel changes at most once; a hit wins over a pass. Never throws on bad
+  // numbers: what cannot be used is counted in the report.
+  IntegrationReport integrate(const LayerScan& scan);
+
+  VoxelState state(const VoxelKey& key) const;
+  VoxelState state(const Point3f& point_layer) const;
+  // Log-odds of occupancy; nothing when unknown.
+  std::optional<float> log_odds(const VoxelKey& key) const;
+
+  // First voxel along the ray that is occupied (or unknown); nothing when there is none in range.
+  // The voxel of the origin itself is looked at too.
+  std::optional<RayHit> cast_ray(const RayQuery& query) const;
+
+  // Calls visit(key, state, log_odds) for every known voxel in the box, blocks in Morton order
+  // within regions.
+  using VoxelVisitor = std::function<void(const VoxelKey&, VoxelState, float log_odds)>;
+  void for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit) const;
+
+  // Blocks whose log-odds changed after the scan numbered `cursor`; 0 gives all. Scans are numbered
+  // from 1; cursor() is the number of the last.
+  std::vector<BlockKey> blocks_changed_since(std::uint32_t cursor) const;
+  std::uint32_t cursor() const { return scans_; }
+
+  MapCounts counts() const;
+  // Smallest box of blocks that holds all known voxels; nothing when the map is empty.
+  std::optional<KeyBox> bounds() const;
+  // Heap bytes held, scratch of the integration included.
+  std::size_t memory_bytes() const;
+
+  const BlockStore& blocks() const { return store_; }
+
+ private:
+  SelfMapConfig config_;
+  Lattice lattice_;
+  FixedSensorModel model_;
+  BlockStore store_;
+  std::unique_ptr<ScanMarker> marker_;
+  std::uint32_t scans_ = 0;
+};
+
+}  // namespace warren
