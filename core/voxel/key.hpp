@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <optional>
@@ -59,12 +58,11 @@ class Lattice {
 
   // Nothing when the point lies outside the key space or is not finite.
   std::optional<VoxelKey> key_of(double x_m, double y_m, double z_m) const {
-    const double x = std::floor(per_metre_ * x_m);
-    const double y = std::floor(per_metre_ * y_m);
-    const double z = std::floor(per_metre_ * z_m);
+    const double x = per_metre_ * x_m;
+    const double y = per_metre_ * y_m;
+    const double z = per_metre_ * z_m;
     if (!in_key_space(x) || !in_key_space(y) || !in_key_space(z)) return std::nullopt;
-    return VoxelKey{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
-                    static_cast<std::int32_t>(z)};
+    return VoxelKey{floor_to_key(x), floor_to_key(y), floor_to_key(z)};
   }
   std::optional<VoxelKey> key_of(const Point3f& p) const { return key_of(p.x, p.y, p.z); }
 
@@ -72,7 +70,12 @@ class Lattice {
   double centre_m(std::int32_t key) const { return (key + 0.5) * resolution_m_; }
 
  private:
-  static bool in_key_space(double key) { return key >= kKeyMin && key <= kKeyMax; }
+  static bool in_key_space(double key) { return key >= kKeyMin && key < kKeyMax + 1; }
+  // std::floor is a call on baseline x86-64; this is not.
+  static std::int32_t floor_to_key(double key) {
+    const auto truncated = static_cast<std::int32_t>(key);
+    return truncated - (static_cast<double>(truncated) > key ? 1 : 0);
+  }
 
   double resolution_m_;
   double per_metre_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "core/voxel/key.hpp"
 #include "core/voxel/point.hpp"
@@ -16,14 +17,14 @@ namespace warren {
 
 // Why a point, or a whole scan, was not integrated. "No return" (NaN) is not an error, but counted.
 enum class Rejection : std::uint8_t {
-  kNoReturn,          // a NaN coordinate
-  kInfinite,          // an infinite coordinate
-  kZeroRange,         // the point is the sensor
-  kBelowMinRange,     // would carve a ray out of the robot's own body
-  kInBodyBox,         // a part of the robot
-  kOutsideKeySpace,   // more than 32768 voxels from the layer's origin
-  kBadDirection,      // a no-return direction that is zero or not finite
-  kBadPose,           // the scan: non-finite pose, or a quaternion that is no rotation
+  kNoReturn,               // a NaN coordinate
+  kInfinite,               // an infinite coordinate
+  kZeroRange,              // the point is the sensor
+  kBelowMinRange,          // would carve a ray out of the robot's own body
+  kInBodyBox,              // a part of the robot
+  kOutsideKeySpace,        // more than 32768 voxels from the layer's origin
+  kBadDirection,           // a no-return direction that is zero or not finite
+  kBadPose,                // the scan: non-finite pose, or a quaternion that is no rotation
   kOriginOutsideKeySpace,  // the scan: its sensor is outside the layer's key space
 };
 inline constexpr std::size_t kRejectionCount = 9;
@@ -37,7 +38,7 @@ inline std::uint64_t& count_of(RejectionCounts& counts, Rejection reason) {
 
 // Rigid pose as it comes from outside: not yet trusted.
 struct Pose {
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();           // metres
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // metres
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
   // The isometry; nothing when a number is not finite or the quaternion's norm is off 1 by more
@@ -61,8 +62,8 @@ struct BodyBox {  // in the base frame, metres
 
 // What of a sensor's scans is used.
 struct SensorFilter {
-  float min_range_m = 0.0F;
-  std::optional<float> max_range_m;  // beyond it a ray carves up to it and marks nothing
+  double min_range_m = 0.0;
+  std::optional<double> max_range_m;  // beyond it a ray carves up to it and marks nothing
   std::optional<BodyBox> body_box;
   bool carve_no_returns = false;  // needs max_range_m
 };
@@ -75,11 +76,13 @@ struct LayerOrigin {
   std::int64_t z = 0;
   friend bool operator==(const LayerOrigin&, const LayerOrigin&) = default;
 
-  // The block corner at or below a position in the map frame.
-  static LayerOrigin snapped(const Eigen::Vector3d& position_map, double resolution_m);
+  // The block corner at or below a position in the map frame; nothing when that is not finite or
+  // farther than 2^50 voxels.
+  static std::optional<LayerOrigin> snapped(const Eigen::Vector3d& position_map,
+                                            double resolution_m);
   Eigen::Vector3d position_map(double resolution_m) const {
-    return Eigen::Vector3d(static_cast<double>(x), static_cast<double>(y),
-                           static_cast<double>(z)) * resolution_m;
+    return Eigen::Vector3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)) *
+           resolution_m;
   }
 };
 
@@ -87,7 +90,7 @@ struct LayerOrigin {
 struct LayerScan {
   Point3f origin_layer;
   std::span<const Point3f> points_layer;
-  std::optional<float> max_range_m;
+  std::optional<double> max_range_m;
   std::span<const Point3f> carved_ends_layer;  // ends of rays that returned nothing
 };
 
@@ -101,6 +104,14 @@ class ScanPreparer {
                                    RejectionCounts& rejected);
 
  private:
+  static constexpr double kPastMaxRange = 1.01;
+
+  void move_points(const Scan& scan, const SensorFilter& filter,
+                   const Eigen::Isometry3d& T_base_sensor, const Eigen::Isometry3d& T_layer_sensor,
+                   RejectionCounts& rejected);
+  void carve_no_returns(const Scan& scan, const SensorFilter& filter,
+                        const Eigen::Isometry3d& T_layer_sensor, RejectionCounts& rejected);
+
   std::vector<Point3f> points_layer_;
   std::vector<Point3f> carved_ends_layer_;
 };

@@ -14,8 +14,6 @@
 
 namespace warren {
 
-class ScanMarker;
-
 struct SelfMapConfig {
   double resolution_m = 0.1;
   SensorModel sensor_model;
@@ -26,7 +24,7 @@ struct SelfMapConfig {
 struct IntegrationReport {
   std::uint64_t rays = 0;
   std::uint64_t voxels_hit = 0;
-  std::uint64_t voxels_passed = 0;   // passed, not hit, and not yet at the free clamp
+  std::uint64_t voxels_passed = 0;  // passed, not hit, and not yet at the free clamp
   std::uint64_t blocks_changed = 0;
   RejectionCounts rejected{};
 };
@@ -97,11 +95,13 @@ class SelfMap {
   const BlockStore& blocks() const { return store_; }
 
  private:
+  struct Scratch;
+
   SelfMapConfig config_;
   Lattice lattice_;
   FixedSensorModel model_;
   BlockStore store_;
-  std::unique_ptr<ScanMarker> marker_;
+  std::unique_ptr<Scratch> scratch_;
   std::uint32_t scans_ = 0;
 };
 

@@ -6,7 +6,7 @@
 namespace warren {
 
 // Probabilities of the binary Bayes filter (paper Eq. 1-2): of occupancy given a hit and a pass,
-// and the two clamps. Valid: 0 < minimum < miss < 0.5 < hit < 1 and 0.5 < maximum < 1.
+// and the two clamps. Valid: 0 < minimum, miss < 0.5 < hit, maximum < 1.
 struct SensorModel {
   double hit = 0.7;
   double miss = 0.4;

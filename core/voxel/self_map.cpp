@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/voxel/self_map.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <unordered_set>
+
+#include "core/voxel/bits.hpp"
+#include "core/voxel/ray_path.hpp"
+#include "core/voxel/scan_commit.hpp"
+#include "core/voxel/scan_marker.hpp"
+
+namespace warren {
+
+// What an integration needs only while it runs; its memory is kept for the next one.
+struct SelfMap::Scratch {
+  explicit Scratch(const Lattice& lattice) : path(lattice) {}
+  ScanMarker marker;
+  RayPath path;
+  std::vector<Point3f> end_centres;
+};
+
+namespace {
+
+struct RayEnd {
+  Point3f point;
+  bool marks_hit = true;
+};
+
+// Where the ray to a point ends: at the point, or at max range, in the oracle's roundings.
+RayEnd end_of_ray(const Point3f& origin, const Point3f& point, std::optional<double> max_range_m) {
+  if (!max_range_m) return {point, true};
+  Point3f d{point.x - origin.x, point.y - origin.y, point.z - origin.z};
+  const double length = std::sqrt(static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z));
+  if (length <= *max_range_m) return {point, true};
+  const auto divisor = static_cast<float>(length);
+  const auto range = static_cast<float>(*max_range_m);
+  return {{origin.x + d.x / divisor * range, origin.y + d.y / divisor * range,
+           origin.z + d.z / divisor * range},
+          false};
+}
+
+// Marks one scan: all hits, then all passes.
+class ScanTracer {
+ public:
+  ScanTracer(const Lattice& lattice, const LayerScan& scan, const VoxelKey& origin,
+             IntegrationReport& report)
+      : lattice_(lattice), scan_(scan), origin_(origin), report_(report) {}
+
+  void mark_hits(std::span<const Point3f> points, ScanMarker& marker) {
+    for (const Point3f& point : points) {
+      const RayEnd end = end_of_ray(scan_.origin_layer, point, scan_.max_range_m);
+      if (!end.marks_hit) continue;
+      if (const auto key = lattice_.key_of(end.point)) marker.hit(*key);
+    }
+  }
+
+  void mark_passes(std::span<const Point3f> points, RayPath& path, ScanMarker& marker) {
+    for (const Point3f& point : points) {
+      const RayEnd end = end_of_ray(scan_.origin_layer, point, scan_.max_range_m);
+      const auto key = lattice_.key_of(end.point);
+      if (!key) {
+        ++count_of(report_.rejected, reason_outside(point));
+        continue;
+      }
+      ++report_.rays;
+      marker.pass(path.trace(scan_.origin_layer, origin_, end.point, *key));
+    }
+  }
+
+ private:
+  static Rejection reason_outside(const Point3f& point) {
+    if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z)) {
+      return Rejection::kNoReturn;
+    }
+    return is_finite(point) ? Rejection::kOutsideKeySpace : Rejection::kInfinite;
+  }
+
+  const Lattice& lattice_;
+  const LayerScan& scan_;
+  VoxelKey origin_;
+  IntegrationReport& report_;
+};
+
+// One point per end voxel, its centre, in order of first appearance.
+void reduce_to_end_voxels(const Lattice& lattice, std::span<const Point3f> points,
+                          IntegrationReport& report, std::vector<Point3f>& centres) {
+  centres.clear();
+  std::unordered_set<std::uint64_t> seen;
+  for (const Point3f& point : points) {
+    const auto key = lattice.key_of(point);
+    if (!key) {
+      ++count_of(report.rejected,
+                 is_finite(point) ? Rejection::kOutsideKeySpace : Rejection::kInfinite);
+      continue;
+    }
+    const auto code = [](std::int32_t axis) { return static_cast<std::uint64_t>(axis - kKeyMin); };
+    if (!seen.insert(code(key->x) << 32 | code(key->y) << 16 | code(key->z)).second) continue;
+    centres.push_back({static_cast<float>(lattice.centre_m(key->x)),
+                       static_cast<float>(lattice.centre_m(key->y)),
+                       static_cast<float>(lattice.centre_m(key->z))});
+  }
+}
+
+}  // namespace
+
+SelfMap::SelfMap(const SelfMapConfig& config)
+    : config_(config),
+      lattice_(config.resolution_m),
+      model_(config.sensor_model),
+      scratch_(std::make_unique<Scratch>(lattice_)) {
+  assert(config.resolution_m > 0.0 && config.sensor_model.is_valid());
+}
+
+SelfMap::~SelfMap() = default;
+SelfMap::SelfMap(SelfMap&&) noexcept = default;
+SelfMap& SelfMap::operator=(SelfMap&&) noexcept = default;
+
+SelfMap::SelfMap(const SelfMap& other)
+    : config_(other.config_),
+      lattice_(other.lattice_),
+      model_(other.model_),
+      store_(other.store_),
+      scratch_(std::make_unique<Scratch>(lattice_)),
+      scans_(other.scans_) {}
+
+SelfMap& SelfMap::operator=(const SelfMap& other) {
+  if (this != &other) *this = SelfMap(other);
+  return *this;
+}
+
+IntegrationReport SelfMap::integrate(const LayerScan& scan) {
+  IntegrationReport report;
+  ++scans_;
+  const auto origin = lattice_.key_of(scan.origin_layer);
+  if (!origin) {
+    ++count_of(report.rejected, Rejection::kOriginOutsideKeySpace);
+    return report;
+  }
+  std::span<const Point3f> points = scan.points_layer;
+  if (config_.one_ray_per_end_voxel) {
+    reduce_to_end_voxels(lattice_, points, report, scratch_->end_centres);
+    points = scratch_->end_centres;
+  }
+  ScanMarker& marker = scratch_->marker;
+  marker.begin(store_);
+  ScanTracer tracer(lattice_, scan, *origin, report);
+  tracer.mark_hits(points, marker);
+  tracer.mark_passes(points, scratch_->path, marker);
+  tracer.mark_passes(scan.carved_ends_layer, scratch_->path, marker);
+
+  const CommitCounts counts = commit_marks(marker, model_, scans_, store_);
+  report.voxels_hit = counts.voxels_hit;
+  report.voxels_passed = counts.voxels_passed;
+  report.blocks_changed = counts.blocks_changed;
+  return report;
+}
+
+VoxelState SelfMap::state(const VoxelKey& key) const { return store_.state(key); }
+
+VoxelState SelfMap::state(const Point3f& point_layer) const {
+  const auto key = lattice_.key_of(point_layer);
+  return key ? store_.state(*key) : VoxelState::kUnknown;
+}
+
+std::optional<float> SelfMap::log_odds(const VoxelKey& key) const {
+  const auto steps = store_.value(key, model_.minimum);
+  if (!steps) return std::nullopt;
+  return model_.log_odds(*steps);
+}
+
+std::vector<BlockKey> SelfMap::blocks_changed_since(std::uint32_t cursor) const {
+  std::vector<BlockKey> changed;
+  for (const std::uint32_t index : store_.regions_in_order()) {
+    const Region& region = store_.region(index);
+    for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
+      if (region.changed_at[slot] > cursor) changed.push_back(block_in_region(region.key, slot));
+    }
+  }
+  return changed;
+}
+
+std::size_t SelfMap::memory_bytes() const {
+  return store_.memory_bytes() + scratch_->marker.memory_bytes() + scratch_->path.memory_bytes() +
+         scratch_->end_centres.capacity() * sizeof(Point3f) + sizeof(Scratch);
+}
+
+}  // namespace warren
