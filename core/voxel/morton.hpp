@@ -28,4 +28,53 @@ constexpr VoxelKey place_of_morton9(std::uint32_t code) {
   return {compact3(code), compact3(code >> 1), compact3(code >> 2)};
 }
 
+// Morton code of a voxel in the whole key space: 48 bits, x lowest. Its low 9 bits are the place in
+// the block, the next 9 the block's in the region, the rest name the region.
+inline constexpr std::array<std::uint64_t, 3> kMortonAxis = {0x249249249249ULL, 0x492492492492ULL,
+                                                             0x924924924924ULL};
+
+constexpr std::uint64_t morton_spread(std::uint64_t bits) {
+  bits = (bits | bits << 16) & 0xFF0000FFULL;
+  bits = (bits | bits << 8) & 0xF00F00F00FULL;
+  bits = (bits | bits << 4) & 0xC30C30C30C3ULL;
+  return (bits | bits << 2) & kMortonAxis[0];
+}
+
+constexpr std::int32_t morton_compact(std::uint64_t bits) {
+  bits &= kMortonAxis[0];
+  bits = (bits | bits >> 2) & 0xC30C30C30C3ULL;
+  bits = (bits | bits >> 4) & 0xF00F00F00FULL;
+  bits = (bits | bits >> 8) & 0xFF0000FFULL;
+  return static_cast<std::int32_t>((bits | bits >> 16) & 0xFFFF);
+}
+
+constexpr std::uint64_t morton_of(const VoxelKey& key) {
+  const auto from_zero = [](std::int32_t axis) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(axis - kKeyMin));
+  };
+  return morton_spread(from_zero(key.x)) | morton_spread(from_zero(key.y)) << 1 |
+         morton_spread(from_zero(key.z)) << 2;
+}
+
+constexpr VoxelKey key_of_morton(std::uint64_t code) {
+  return {morton_compact(code) + kKeyMin, morton_compact(code >> 1) + kKeyMin,
+          morton_compact(code >> 2) + kKeyMin};
+}
+
+// Adds one along an axis: the other axes' bits are set, so that the carry runs over them.
+constexpr std::uint64_t morton_add_one(std::uint64_t code, unsigned axis) {
+  const std::uint64_t mask = kMortonAxis[axis];
+  return (((code | ~mask) + (std::uint64_t{1} << axis)) & mask) | (code & ~mask);
+}
+
+// Adds up to 8 along each axis.
+constexpr std::uint64_t morton_add(std::uint64_t code, std::uint32_t x, std::uint32_t y,
+                                   std::uint32_t z) {
+  constexpr std::array<std::uint64_t, 9> kSpread = {0, 1, 8, 9, 64, 65, 72, 73, 512};
+  const auto add = [code](std::size_t axis, std::uint64_t spread) {
+    return ((code | ~kMortonAxis[axis]) + (spread << axis)) & kMortonAxis[axis];
+  };
+  return add(0, kSpread[x]) | add(1, kSpread[y]) | add(2, kSpread[z]);
+}
+
 }  // namespace warren

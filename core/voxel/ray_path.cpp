@@ -18,7 +18,6 @@ constexpr std::size_t kOvershoot = 2;
 RayWalker RayPath::trace(const Point3f& origin, const VoxelKey& from, const Point3f& end,
                          const VoxelKey& to) {
   RayWalker walker;
-  walker.key = {from.x, from.y, from.z};
   if (from == to) return walker;
 
   // Mixed float and double on purpose: the very roundings of the oracle.
@@ -27,24 +26,26 @@ RayWalker RayPath::trace(const Point3f& origin, const VoxelKey& from, const Poin
   const float squared =
       direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
   const auto length = static_cast<float>(std::sqrt(static_cast<double>(squared)));
-  const std::array<std::int32_t, 3> last = {to.x, to.y, to.z};
+  const std::array<std::int32_t, 3> first_key = {from.x, from.y, from.z};
+  const std::array<std::int32_t, 3> last_key = {to.x, to.y, to.z};
   const double resolution = lattice_.resolution_m();
   for (std::size_t i = 0; i < 3; ++i) {
     direction[i] /= length;
-    walker.step[i] = direction[i] > 0.0F ? 1 : direction[i] < 0.0F ? -1 : 0;
-    axes_[i].needed = static_cast<std::size_t>(std::abs(last[i] - walker.key[i]));
+    const int step = direction[i] > 0.0F ? 1 : direction[i] < 0.0F ? -1 : 0;
+    axes_[i].needed = static_cast<std::size_t>(std::abs(last_key[i] - first_key[i]));
     double first = kNever;
     double delta = kNever;
-    if (walker.step[i] != 0) {
-      const double border =
-          lattice_.centre_m(walker.key[i]) +
-          static_cast<double>(static_cast<float>(walker.step[i] * resolution * 0.5));
+    if (step != 0) {
+      const double border = lattice_.centre_m(first_key[i]) +
+                            static_cast<double>(static_cast<float>(step * resolution * 0.5));
       first = (border - static_cast<double>(start[i])) / static_cast<double>(direction[i]);
       delta = resolution / static_cast<double>(std::fabs(direction[i]));
     }
+    if (step < 0) walker.mirror |= kMortonAxis[i];
     fill(axes_[i], first, delta, static_cast<double>(length));
     walker.crossings[i] = axes_[i].crossings.data();
   }
+  walker.mirrored = morton_of(from) ^ walker.mirror;
   walker.remaining = voxels_passed();
   return walker;
 }

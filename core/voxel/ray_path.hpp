@@ -7,67 +7,90 @@
 #include <vector>
 
 #include "core/voxel/key.hpp"
+#include "core/voxel/morton.hpp"
 #include "core/voxel/point.hpp"
 
 namespace warren {
 
 // A position on a ray's way through the lattice. Distances along the ray at which it crosses the
 // next voxel borders stand in one ascending table per axis; where two axes cross at once, z goes
-// before y before x, as in OctoMap.
+// before y before x, as in OctoMap. The voxel is a Morton code, mirrored on the axes along which
+// the ray descends: in the mirrored lattice every step is upwards.
 struct RayWalker {
-  std::array<std::int32_t, 3> key{};
-  std::array<std::int32_t, 3> step{};        // -1, 0, 1
+  std::uint64_t mirrored = 0;
+  std::uint64_t mirror = 0;                  // code = mirrored ^ mirror
   std::array<const double*, 3> crossings{};  // next crossing first
   std::int64_t remaining = 0;                // voxels still to visit, this one included
 
+  std::uint64_t code() const { return mirrored ^ mirror; }
+
   // To the next voxel on the ray.
   void advance() {
-    const std::size_t axis = next_axis(*crossings[0], *crossings[1], *crossings[2]);
-    key[axis] += step[axis];
-    ++crossings[axis];
+    const double x = *crossings[0];
+    const double y = *crossings[1];
+    const double z = *crossings[2];
+    // Bitwise and without branches: which axis is next is as good as random.
+    const auto is_x = static_cast<unsigned>(x < y) & static_cast<unsigned>(x < z);
+    const auto is_y = (is_x ^ 1U) & static_cast<unsigned>(y < z);
+    const unsigned is_z = (is_x | is_y) ^ 1U;
+    crossings[0] += is_x;
+    crossings[1] += is_y;
+    crossings[2] += is_z;
+    mirrored = morton_add_one(mirrored, is_y + 2 * is_z);
     --remaining;
   }
 
-  // To the first voxel outside the aligned cube of kEdge (4 or 8) voxels. False, and the position
-  // is lost, when the ray ends inside.
-  template <int kEdge>
+  // To the first voxel outside the aligned cube of 2^kLevel voxels per edge (kLevel 2 or 3). False,
+  // and the position is lost, when the ray ends inside.
+  template <int kLevel>
   bool leave_cube() {
-    std::array<std::int32_t, 3> border{};  // crossings up to and with the one that leaves the cube
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int32_t inside = key[axis] & (kEdge - 1);
-      border[axis] = step[axis] > 0 ? kEdge - inside : inside + 1;
+    const std::array<std::uint32_t, 3> border = {crossings_to_border<kLevel>(0),
+                                                 crossings_to_border<kLevel>(1),
+                                                 crossings_to_border<kLevel>(2)};
+    const double x = crossings[0][border[0] - 1];
+    const double y = crossings[1][border[1] - 1];
+    const double z = crossings[2][border[2] - 1];
+    const Before<false> below;
+    const Before<true> up_to;
+    if (x < y && x < z) {
+      return move({border[0], count<kLevel>(1, x, up_to), count<kLevel>(2, x, up_to)});
     }
-    const std::size_t exit = next_axis(crossings[0][border[0] - 1], crossings[1][border[1] - 1],
-                                       crossings[2][border[2] - 1]);
-    const double exit_m = crossings[exit][border[exit] - 1];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int32_t crossed = axis == exit  ? border[axis]
-                                   : axis > exit ? count_up_to<kEdge>(crossings[axis], exit_m)
-                                                 : count_below<kEdge>(crossings[axis], exit_m);
-      key[axis] += crossed * step[axis];
-      crossings[axis] += crossed;
-      remaining -= crossed;
-    }
-    return remaining > 0;
+    if (y < z) return move({count<kLevel>(0, y, below), border[1], count<kLevel>(2, y, up_to)});
+    return move({count<kLevel>(0, z, below), count<kLevel>(1, z, below), border[2]});
   }
 
  private:
-  static std::size_t next_axis(double x, double y, double z) {
-    if (x < y) return x < z ? 0 : 2;
-    return y < z ? 1 : 2;
+  template <bool kInclusive>
+  struct Before {
+    bool operator()(double crossing, double limit) const {
+      return kInclusive ? crossing <= limit : crossing < limit;
+    }
+  };
+
+  // Crossings of one axis up to and with the one that leaves the cube.
+  template <int kLevel>
+  std::uint32_t crossings_to_border(int axis) const {
+    const auto bits = static_cast<std::uint32_t>(mirrored >> axis);
+    std::uint32_t inside = (bits & 1) | (bits >> 2 & 2);
+    if constexpr (kLevel == 3) inside |= bits >> 4 & 4;
+    return (1U << kLevel) - inside;
   }
-  // How many of the next crossings come before the cube is left; fewer than kEdge do.
-  template <int kEdge>
-  static std::int32_t count_below(const double* next, double limit) {
-    std::int32_t count = 0;
-    for (int i = 0; i < kEdge - 1; ++i) count += next[i] < limit ? 1 : 0;
-    return count;
+
+  // How many of an axis' next crossings come before the cube is left; fewer than its edge do.
+  template <int kLevel, typename IsBefore>
+  std::uint32_t count(std::size_t axis, double limit, IsBefore is_before) const {
+    std::uint32_t before = 0;
+    for (int i = 0; i < (1 << kLevel) - 1; ++i) {
+      before += is_before(crossings[axis][i], limit) ? 1U : 0U;
+    }
+    return before;
   }
-  template <int kEdge>
-  static std::int32_t count_up_to(const double* next, double limit) {
-    std::int32_t count = 0;
-    for (int i = 0; i < kEdge - 1; ++i) count += next[i] <= limit ? 1 : 0;
-    return count;
+
+  bool move(const std::array<std::uint32_t, 3>& crossed) {
+    for (std::size_t axis = 0; axis < 3; ++axis) crossings[axis] += crossed[axis];
+    mirrored = morton_add(mirrored, crossed[0], crossed[1], crossed[2]);
+    remaining -= static_cast<std::int64_t>(crossed[0]) + crossed[1] + crossed[2];
+    return remaining > 0;
   }
 };
 

@@ -48,24 +48,26 @@ class ScanMarker {
   using Entry = std::uint32_t;
   static constexpr Entry kAllDone = 0x80000000U;
   static constexpr BlockMask kNothing{};
+  static constexpr std::uint64_t kNoRegion = ~std::uint64_t{0};
 
   struct ScanRegion {
     std::uint32_t index = 0;
     std::array<Entry, kBlocksPerRegion> entries{};
   };
 
-  ScanRegion& enter_region(const VoxelKey& region);
-  Entry& enter_block(const std::array<std::int32_t, 3>& key);
+  // By Morton code of a voxel.
+  Entry& enter_block(std::uint64_t code);
+  void enter_region(std::uint64_t code);
   Entry first_entry(std::uint32_t region, std::uint32_t slot);
   Entry add_marked(std::uint32_t region, std::uint32_t slot);
-  bool walk_block(RayWalker& walker, MarkedBlock& block, Entry& entry);
+  bool walk_block(RayWalker& walker, BlockMask& done, Entry& entry);
 
   BlockStore* store_ = nullptr;
   std::vector<std::unique_ptr<ScanRegion>> regions_;
   std::vector<std::uint32_t> region_numbers_;  // store's region index -> number in regions_ + 1
   std::uint32_t regions_used_ = 0;
   ScanRegion* current_ = nullptr;
-  VoxelKey current_key_{};
+  std::uint64_t current_code_ = kNoRegion;  // Morton code of the current region
   ChunkedPool<MarkedBlock, 128> marked_;
   ChunkedPool<BlockMask, 128> hits_;
 };
