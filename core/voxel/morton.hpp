@@ -61,13 +61,7 @@ constexpr VoxelKey key_of_morton(std::uint64_t code) {
           morton_compact(code >> 2) + kKeyMin};
 }
 
-// Adds one along an axis: the other axes' bits are set, so that the carry runs over them.
-constexpr std::uint64_t morton_add_one(std::uint64_t code, unsigned axis) {
-  const std::uint64_t mask = kMortonAxis[axis];
-  return (((code | ~mask) + (std::uint64_t{1} << axis)) & mask) | (code & ~mask);
-}
-
-// Adds up to 8 along each axis.
+// Adds up to 8 along each axis. The other axes' bits are set, so that the carry runs over them.
 constexpr std::uint64_t morton_add(std::uint64_t code, std::uint32_t x, std::uint32_t y,
                                    std::uint32_t z) {
   constexpr std::array<std::uint64_t, 9> kSpread = {0, 1, 8, 9, 64, 65, 72, 73, 512};

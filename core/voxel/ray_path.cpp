@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/voxel/ray_path.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -9,9 +11,37 @@ namespace warren {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::max();
-constexpr std::size_t kPadding = 8;  // RayWalker::leave_cube reads this far ahead
+constexpr std::size_t kPadding = 8;  // RayWalker::leave_block reads this far ahead
 // Rounding may carry a ray past its end's voxel by one border; beyond that nothing is looked at.
 constexpr std::size_t kOvershoot = 2;
+
+// Bits of a coordinate that adding one flips, spread for a Morton code; by its trailing ones.
+constexpr auto kFlips = [] {
+  std::array<std::uint64_t, 17> flips{};
+  for (std::size_t ones = 0; ones < 16; ++ones) {
+    flips[ones] = morton_spread((std::uint64_t{2} << ones) - 1);
+  }
+  return flips;
+}();
+
+// One axis' crossings, to count in.
+struct Ranking {
+  const double* crossings;
+  double per_metre;
+
+  // How many of the crossings come before the one of another axis at `distance_m`; those at the
+  // same distance too if kTiesCount. A guess by division is off by one at most: the table decides.
+  template <bool kTiesCount>
+  std::size_t rank(double distance_m) const {
+    const auto before = [](double crossing, double limit) {
+      return kTiesCount ? crossing <= limit : crossing < limit;
+    };
+    const double guess = std::max((distance_m - crossings[0]) * per_metre + 1.0, 1.0);
+    const auto index = static_cast<std::size_t>(static_cast<std::int64_t>(guess));
+    return index - (before(crossings[index - 1], distance_m) ? 0 : 1) +
+           (before(crossings[index], distance_m) ? 1 : 0);
+  }
+};
 
 }  // namespace
 
@@ -46,7 +76,12 @@ RayWalker RayPath::trace(const Point3f& origin, const VoxelKey& from, const Poin
     walker.crossings[i] = axes_[i].crossings.data();
   }
   walker.mirrored = morton_of(from) ^ walker.mirror;
-  walker.remaining = voxels_passed();
+  const bool reaches = reaches_end();
+  for (Axis& axis : axes_) {
+    axis.used = reaches ? axis.needed : axis.within;
+    walker.remaining += static_cast<std::int64_t>(axis.used);
+  }
+  if (walker.remaining == 0) walker.remaining = 1;  // the first voxel always counts
   return walker;
 }
 
@@ -60,6 +95,7 @@ void RayPath::fill(Axis& axis, double first_m, double delta_m, double length_m) 
     crossings[count++] = crossing;
   }
   axis.within = count;
+  axis.per_metre = count > 0 ? 1.0 / delta_m : 0.0;
   for (std::size_t i = 0; i < kPadding; ++i) crossings[count + i] = kNever;
 }
 
@@ -80,18 +116,43 @@ bool RayPath::reaches_end() const {
   return true;
 }
 
-std::int64_t RayPath::voxels_passed() const {
-  const bool reaches = reaches_end();
-  std::size_t crossings = 0;
-  for (const Axis& axis : axes_) crossings += reaches ? axis.needed : axis.within;
-  return crossings == 0 ? 1
-                        : static_cast<std::int64_t>(crossings);  // the first voxel always counts
+std::span<const std::uint64_t> RayPath::unroll(const RayWalker& walker) {
+  const auto count = static_cast<std::size_t>(walker.remaining);
+  if (steps_.size() < count) steps_.resize(count);
+  unroll_axis<0>(walker);
+  unroll_axis<1>(walker);
+  unroll_axis<2>(walker);
+  steps_[count - 1] = kEndOfRay;
+  return {steps_.data(), count};
+}
+
+// Puts each crossing of one axis at its rank among the crossings of all three. No crossing waits
+// for another, as it would in a merge: that is what makes it fast.
+template <std::size_t kAxis>
+void RayPath::unroll_axis(const RayWalker& walker) {
+  constexpr std::size_t kNext = (kAxis + 1) % 3;
+  constexpr std::size_t kLast = (kAxis + 2) % 3;
+  const double* const crossings = walker.crossings[kAxis];
+  const Ranking next{walker.crossings[kNext], axes_[kNext].per_metre};
+  const Ranking last{walker.crossings[kLast], axes_[kLast].per_metre};
+  const auto passed = static_cast<std::size_t>(crossings - axes_[kAxis].crossings.data());
+  const auto coordinate = static_cast<std::uint32_t>(morton_compact(walker.mirrored >> kAxis));
+  std::uint64_t* const steps = steps_.data();
+  const std::size_t count = axes_[kAxis].used - passed;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double distance_m = crossings[i];
+    const std::size_t rank =
+        i + next.rank<(kNext > kAxis)>(distance_m) + last.rank<(kLast > kAxis)>(distance_m);
+    const auto ones =
+        static_cast<std::size_t>(std::countr_one(coordinate + static_cast<std::uint32_t>(i)));
+    steps[rank] = kFlips[ones] << kAxis;
+  }
 }
 
 std::size_t RayPath::memory_bytes() const {
   std::size_t bytes = 0;
   for (const Axis& axis : axes_) bytes += axis.crossings.capacity() * sizeof(double);
-  return bytes;
+  return bytes + steps_.capacity() * sizeof(std::uint64_t);
 }
 
 }  // namespace warren

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/voxel/key.hpp"
@@ -19,44 +20,26 @@ namespace warren {
 struct RayWalker {
   std::uint64_t mirrored = 0;
   std::uint64_t mirror = 0;                  // code = mirrored ^ mirror
-  std::array<const double*, 3> crossings{};  // next crossing first
+  std::array<const double*, 3> crossings{};  // metres, next crossing first
   std::int64_t remaining = 0;                // voxels still to visit, this one included
 
   std::uint64_t code() const { return mirrored ^ mirror; }
 
-  // To the next voxel on the ray.
-  void advance() {
-    const double x = *crossings[0];
-    const double y = *crossings[1];
-    const double z = *crossings[2];
-    // Bitwise and without branches: which axis is next is as good as random.
-    const auto is_x = static_cast<unsigned>(x < y) & static_cast<unsigned>(x < z);
-    const auto is_y = (is_x ^ 1U) & static_cast<unsigned>(y < z);
-    const unsigned is_z = (is_x | is_y) ^ 1U;
-    crossings[0] += is_x;
-    crossings[1] += is_y;
-    crossings[2] += is_z;
-    mirrored = morton_add_one(mirrored, is_y + 2 * is_z);
-    --remaining;
-  }
-
-  // To the first voxel outside the aligned cube of 2^kLevel voxels per edge (kLevel 2 or 3). False,
-  // and the position is lost, when the ray ends inside.
-  template <int kLevel>
-  bool leave_cube() {
-    const std::array<std::uint32_t, 3> border = {crossings_to_border<kLevel>(0),
-                                                 crossings_to_border<kLevel>(1),
-                                                 crossings_to_border<kLevel>(2)};
+  // To the first voxel outside the block. False, and the position is lost, when the ray ends
+  // inside.
+  bool leave_block() {
+    const std::array<std::uint32_t, 3> border = {crossings_to_border(0), crossings_to_border(1),
+                                                 crossings_to_border(2)};
     const double x = crossings[0][border[0] - 1];
     const double y = crossings[1][border[1] - 1];
     const double z = crossings[2][border[2] - 1];
     const Before<false> below;
     const Before<true> up_to;
     if (x < y && x < z) {
-      return move({border[0], count<kLevel>(1, x, up_to), count<kLevel>(2, x, up_to)});
+      return move({border[0], count(1, x, up_to), count(2, x, up_to)});
     }
-    if (y < z) return move({count<kLevel>(0, y, below), border[1], count<kLevel>(2, y, up_to)});
-    return move({count<kLevel>(0, z, below), count<kLevel>(1, z, below), border[2]});
+    if (y < z) return move({count(0, y, below), border[1], count(2, y, up_to)});
+    return move({count(0, z, below), count(1, z, below), border[2]});
   }
 
  private:
@@ -67,20 +50,17 @@ struct RayWalker {
     }
   };
 
-  // Crossings of one axis up to and with the one that leaves the cube.
-  template <int kLevel>
+  // Crossings of one axis up to and with the one that leaves the block.
   std::uint32_t crossings_to_border(int axis) const {
     const auto bits = static_cast<std::uint32_t>(mirrored >> axis);
-    std::uint32_t inside = (bits & 1) | (bits >> 2 & 2);
-    if constexpr (kLevel == 3) inside |= bits >> 4 & 4;
-    return (1U << kLevel) - inside;
+    return 8 - ((bits & 1) | (bits >> 2 & 2) | (bits >> 4 & 4));
   }
 
-  // How many of an axis' next crossings come before the cube is left; fewer than its edge do.
-  template <int kLevel, typename IsBefore>
+  // How many of an axis' next crossings come before the block is left: at most 7 do.
+  template <typename IsBefore>
   std::uint32_t count(std::size_t axis, double limit, IsBefore is_before) const {
     std::uint32_t before = 0;
-    for (int i = 0; i < (1 << kLevel) - 1; ++i) {
+    for (int i = 0; i < kBlockEdge - 1; ++i) {
       before += is_before(crossings[axis][i], limit) ? 1U : 0U;
     }
     return before;
@@ -105,20 +85,30 @@ class RayPath {
   RayWalker trace(const Point3f& origin, const VoxelKey& from, const Point3f& end,
                   const VoxelKey& to);
 
+  // The rest of the way of a walker from the last trace(): what to exclusive-or to its code() to
+  // get to each next voxel. As many as voxels remain; the last is kEndOfRay. Valid until the next
+  // call.
+  std::span<const std::uint64_t> unroll(const RayWalker& walker);
+  static constexpr std::uint64_t kEndOfRay = std::uint64_t{1} << 63;
+
   std::size_t memory_bytes() const;
 
  private:
   struct Axis {
-    std::vector<double> crossings;  // ascending, then padding that is never reached
+    std::vector<double> crossings;  // ascending, metres; then padding that is never reached
+    double per_metre = 0.0;         // crossings per metre; 0 if there are none
     std::size_t within = 0;         // crossings no farther than the ray is long
     std::size_t needed = 0;         // crossings to the end's voxel
+    std::size_t used = 0;           // crossings on the way
   };
   void fill(Axis& axis, double first_m, double delta_m, double length_m);
   bool reaches_end() const;
-  std::int64_t voxels_passed() const;
+  template <std::size_t kAxis>
+  void unroll_axis(const RayWalker& walker);
 
   Lattice lattice_;
   std::array<Axis, 3> axes_;
+  std::vector<std::uint64_t> steps_;
 };
 
 }  // namespace warren

@@ -37,35 +37,33 @@ void ScanMarker::hit(const VoxelKey& key) {
   block.done[code >> 6 & 7] |= bit;
 }
 
-void ScanMarker::pass(RayWalker walker) {
-  bool more = walker.remaining > 0;
-  while (more) {
-    Entry& entry = enter_block(walker.code());
-    more = (entry & kAllDone) != 0 ? walker.leave_cube<3>()
-                                   : walk_block(walker, marked_[entry - 1].done, entry);
+void ScanMarker::pass(RayPath& path, RayWalker walker) {
+  // What is near the sensor is mostly done: the voxels of those blocks are not even counted out.
+  while (walker.remaining > 0 && (enter_block(walker.code()) & kAllDone) != 0) {
+    if (!walker.leave_block()) return;
   }
+  if (walker.remaining > 0) mark_voxels(walker.code(), path.unroll(walker));
 }
 
-// Marks the walker's voxels up to where it leaves the block; false when it ends before.
-bool ScanMarker::walk_block(RayWalker& outside, BlockMask& done, Entry& entry) {
-  RayWalker walker = outside;  // in registers: the masks could alias the original
-  const std::uint64_t block = walker.mirrored >> 9;
-  bool skipped = false;
-  do {
-    const std::uint64_t code = walker.code();
-    std::uint64_t& cell = done[code >> 6 & 7];
-    if (cell == kFullCell) {
-      skipped = true;
-      walker.leave_cube<2>();
-    } else {
-      cell |= std::uint64_t{1} << (code & 63);
-      walker.advance();
+void ScanMarker::mark_voxels(std::uint64_t code, std::span<const std::uint64_t> steps) {
+  const std::uint64_t* step = steps.data();
+  const std::uint64_t* const end = step + steps.size();
+  while (step != end) {
+    Entry& entry = enter_block(code);
+    const std::uint64_t block = code >> 9;
+    if ((entry & kAllDone) != 0) {
+      do {
+        code ^= *step++;
+      } while (code >> 9 == block);
+      continue;
     }
-  } while (walker.remaining > 0 && walker.mirrored >> 9 == block);
-  // A block is full only if its last cell is; looking when a full cell was met is soon enough.
-  if (skipped && all_done(done)) entry |= kAllDone;
-  outside = walker;
-  return walker.remaining > 0;
+    BlockMask& done = marked_[entry - 1].done;
+    do {  // the last step leaves every block
+      done[code >> 6 & 7] |= std::uint64_t{1} << (code & 63);
+      code ^= *step++;
+    } while (code >> 9 == block);
+    if (all_done(done)) entry |= kAllDone;
+  }
 }
 
 ScanMarker::Entry& ScanMarker::enter_block(std::uint64_t code) {

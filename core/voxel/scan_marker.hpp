@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/voxel/block_store.hpp"
@@ -32,7 +33,8 @@ class ScanMarker {
   // Starts a scan over this store, which must outlive it. Regions are added to it as they are met.
   void begin(BlockStore& store);
   void hit(const VoxelKey& key);
-  void pass(RayWalker walker);
+  // All that remains of the walker's way; `path` made it.
+  void pass(RayPath& path, RayWalker walker);
 
   std::uint32_t marked_count() const { return marked_.in_use(); }
   const MarkedBlock& marked(std::uint32_t index) const { return marked_[index]; }
@@ -60,7 +62,7 @@ class ScanMarker {
   void enter_region(std::uint64_t code);
   Entry first_entry(std::uint32_t region, std::uint32_t slot);
   Entry add_marked(std::uint32_t region, std::uint32_t slot);
-  bool walk_block(RayWalker& walker, BlockMask& done, Entry& entry);
+  void mark_voxels(std::uint64_t code, std::span<const std::uint64_t> steps);
 
   BlockStore* store_ = nullptr;
   std::vector<std::unique_ptr<ScanRegion>> regions_;

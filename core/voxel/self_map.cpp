@@ -66,7 +66,7 @@ class ScanTracer {
         continue;
       }
       ++report_.rays;
-      marker.pass(path.trace(scan_.origin_layer, origin_, end.point, *key));
+      marker.pass(path, path.trace(scan_.origin_layer, origin_, end.point, *key));
     }
   }
 
