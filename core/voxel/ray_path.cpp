@@ -16,31 +16,43 @@ constexpr std::size_t kPadding = 8;  // RayWalker::leave_block reads this far ah
 constexpr std::size_t kOvershoot = 2;
 
 // Bits of a coordinate that adding one flips, spread for a Morton code; by its trailing ones.
+template <std::size_t kAxis>
 constexpr auto kFlips = [] {
   std::array<std::uint64_t, 17> flips{};
   for (std::size_t ones = 0; ones < 16; ++ones) {
-    flips[ones] = morton_spread((std::uint64_t{2} << ones) - 1);
+    flips[ones] = morton_spread((std::uint64_t{2} << ones) - 1) << kAxis;
   }
   return flips;
 }();
 
-// One axis' crossings, to count in.
-struct Ranking {
-  const double* crossings;
-  double per_metre;
+// Counts how many crossings of one axis come before each of another's, in turn; those at the same
+// distance too if kTiesCount.
+template <bool kTiesCount>
+class RankIn {
+ public:
+  // The other axis' crossings start at `first_m` and come every `step_m`.
+  RankIn(const double* crossings, double per_metre, double first_m, double step_m)
+      : crossings_(crossings),
+        guess_((first_m - crossings[0]) * per_metre + 1.0 - kMargin),
+        per_step_(step_m * per_metre) {}
 
-  // How many of the crossings come before the one of another axis at `distance_m`; those at the
-  // same distance too if kTiesCount. A guess by division is off by one at most: the table decides.
-  template <bool kTiesCount>
-  std::size_t rank(double distance_m) const {
-    const auto before = [](double crossing, double limit) {
-      return kTiesCount ? crossing <= limit : crossing < limit;
-    };
-    const double guess = std::max((distance_m - crossings[0]) * per_metre + 1.0, 1.0);
+  std::size_t next(double distance_m) {
+    // Low by the margin, so that the truth is the guess or one more: the table decides.
+    const double guess = guess_ > 0.0 ? guess_ : 0.0;
     const auto index = static_cast<std::size_t>(static_cast<std::int64_t>(guess));
-    return index - (before(crossings[index - 1], distance_m) ? 0 : 1) +
-           (before(crossings[index], distance_m) ? 1 : 0);
+    guess_ += per_step_;
+    const bool one_more =
+        kTiesCount ? crossings_[index] <= distance_m : crossings_[index] < distance_m;
+    return index + (one_more ? 1 : 0);
   }
+
+ private:
+  // Far more than the roundings of 65536 sums, far less than one crossing.
+  static constexpr double kMargin = 1e-3;
+
+  const double* crossings_;
+  double guess_;
+  double per_step_;
 };
 
 }  // namespace
@@ -133,19 +145,20 @@ void RayPath::unroll_axis(const RayWalker& walker) {
   constexpr std::size_t kNext = (kAxis + 1) % 3;
   constexpr std::size_t kLast = (kAxis + 2) % 3;
   const double* const crossings = walker.crossings[kAxis];
-  const Ranking next{walker.crossings[kNext], axes_[kNext].per_metre};
-  const Ranking last{walker.crossings[kLast], axes_[kLast].per_metre};
   const auto passed = static_cast<std::size_t>(crossings - axes_[kAxis].crossings.data());
+  const std::size_t count = axes_[kAxis].used - passed;
+  if (count == 0) return;
+  const double step_m = 1.0 / axes_[kAxis].per_metre;
+  RankIn<(kNext > kAxis)> next(walker.crossings[kNext], axes_[kNext].per_metre, crossings[0],
+                               step_m);
+  RankIn<(kLast > kAxis)> last(walker.crossings[kLast], axes_[kLast].per_metre, crossings[0],
+                               step_m);
   const auto coordinate = static_cast<std::uint32_t>(morton_compact(walker.mirrored >> kAxis));
   std::uint64_t* const steps = steps_.data();
-  const std::size_t count = axes_[kAxis].used - passed;
   for (std::size_t i = 0; i < count; ++i) {
-    const double distance_m = crossings[i];
-    const std::size_t rank =
-        i + next.rank<(kNext > kAxis)>(distance_m) + last.rank<(kLast > kAxis)>(distance_m);
-    const auto ones =
-        static_cast<std::size_t>(std::countr_one(coordinate + static_cast<std::uint32_t>(i)));
-    steps[rank] = kFlips[ones] << kAxis;
+    const std::size_t rank = i + next.next(crossings[i]) + last.next(crossings[i]);
+    const std::uint32_t not_ones = ~(coordinate + static_cast<std::uint32_t>(i));  // never 0
+    steps[rank] = kFlips<kAxis>[static_cast<std::size_t>(__builtin_ctz(not_ones))];
   }
 }
 

@@ -22,6 +22,7 @@ void ScanMarker::begin(BlockStore& store) {
   regions_used_ = 0;
   current_ = nullptr;
   current_code_ = kNoRegion;
+  cache_.fill({});
   marked_.clear();
   hits_.clear();
 }
@@ -67,14 +68,22 @@ void ScanMarker::mark_voxels(std::uint64_t code, std::span<const std::uint64_t> 
 }
 
 ScanMarker::Entry& ScanMarker::enter_block(std::uint64_t code) {
-  if (code >> 18 != current_code_) enter_region(code);
+  if (code >> 18 != current_code_) enter_region(code >> 18);
   Entry& entry = current_->entries[slot_of(code)];
   if (entry == 0) entry = first_entry(current_->index, slot_of(code));
   return entry;
 }
 
-void ScanMarker::enter_region(std::uint64_t code) {
-  const std::uint32_t index = store_->find_or_add_region(region_of(key_of_morton(code)));
+void ScanMarker::enter_region(std::uint64_t region_code) {
+  CachedRegion& cached = cache_[region_code % cache_.size()];
+  if (cached.code != region_code) cached = {region_code, &find_region(region_code)};
+  current_ = cached.region;
+  current_code_ = region_code;
+}
+
+ScanMarker::ScanRegion& ScanMarker::find_region(std::uint64_t region_code) {
+  const std::uint32_t index =
+      store_->find_or_add_region(region_of(key_of_morton(region_code << 18)));
   if (index >= region_numbers_.size()) region_numbers_.resize(index + 1, 0);
   if (region_numbers_[index] == 0) {
     if (regions_used_ == regions_.size()) regions_.push_back(std::make_unique<ScanRegion>());
@@ -83,8 +92,7 @@ void ScanMarker::enter_region(std::uint64_t code) {
     fresh.entries.fill(0);
     region_numbers_[index] = regions_used_;
   }
-  current_ = regions_[region_numbers_[index] - 1].get();
-  current_code_ = code >> 18;
+  return *regions_[region_numbers_[index] - 1];
 }
 
 ScanMarker::Entry ScanMarker::first_entry(std::uint32_t region, std::uint32_t slot) {

@@ -57,9 +57,15 @@ class ScanMarker {
     std::array<Entry, kBlocksPerRegion> entries{};
   };
 
+  struct CachedRegion {
+    std::uint64_t code = kNoRegion;
+    ScanRegion* region = nullptr;
+  };
+
   // By Morton code of a voxel.
   Entry& enter_block(std::uint64_t code);
-  void enter_region(std::uint64_t code);
+  void enter_region(std::uint64_t region_code);
+  ScanRegion& find_region(std::uint64_t region_code);
   Entry first_entry(std::uint32_t region, std::uint32_t slot);
   Entry add_marked(std::uint32_t region, std::uint32_t slot);
   void mark_voxels(std::uint64_t code, std::span<const std::uint64_t> steps);
@@ -70,6 +76,8 @@ class ScanMarker {
   std::uint32_t regions_used_ = 0;
   ScanRegion* current_ = nullptr;
   std::uint64_t current_code_ = kNoRegion;  // Morton code of the current region
+  // Regions met lately, by the low bits of their Morton codes: rays come back to the same few.
+  std::array<CachedRegion, 64> cache_{};
   ChunkedPool<MarkedBlock, 128> marked_;
   ChunkedPool<BlockMask, 128> hits_;
 };
