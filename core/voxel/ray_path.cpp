@@ -55,6 +55,16 @@ class RankIn {
   double per_step_;
 };
 
+// Where a ray crosses voxel borders along one axis, in the roundings of the oracle.
+RayPath::Spacing spacing_of(std::int32_t key, float start_m, float direction,
+                            const Lattice& lattice) {
+  if (!(direction > 0.0F) && !(direction < 0.0F)) return {kNever, kNever};
+  const double half_step = (direction > 0.0F ? 0.5 : -0.5) * lattice.resolution_m();
+  const double border = lattice.centre_m(key) + static_cast<double>(static_cast<float>(half_step));
+  return {(border - static_cast<double>(start_m)) / static_cast<double>(direction),
+          lattice.resolution_m() / static_cast<double>(std::fabs(direction))};
+}
+
 }  // namespace
 
 RayWalker RayPath::trace(const Point3f& origin, const VoxelKey& from, const Point3f& end,
@@ -70,23 +80,15 @@ RayWalker RayPath::trace(const Point3f& origin, const VoxelKey& from, const Poin
   const auto length = static_cast<float>(std::sqrt(static_cast<double>(squared)));
   const std::array<std::int32_t, 3> first_key = {from.x, from.y, from.z};
   const std::array<std::int32_t, 3> last_key = {to.x, to.y, to.z};
-  const double resolution = lattice_.resolution_m();
+  std::array<Spacing, 3> spacing;
   for (std::size_t i = 0; i < 3; ++i) {
     direction[i] /= length;
-    const int step = direction[i] > 0.0F ? 1 : direction[i] < 0.0F ? -1 : 0;
     axes_[i].needed = static_cast<std::size_t>(std::abs(last_key[i] - first_key[i]));
-    double first = kNever;
-    double delta = kNever;
-    if (step != 0) {
-      const double border = lattice_.centre_m(first_key[i]) +
-                            static_cast<double>(static_cast<float>(step * resolution * 0.5));
-      first = (border - static_cast<double>(start[i])) / static_cast<double>(direction[i]);
-      delta = resolution / static_cast<double>(std::fabs(direction[i]));
-    }
-    if (step < 0) walker.mirror |= kMortonAxis[i];
-    fill(axes_[i], first, delta, static_cast<double>(length));
-    walker.crossings[i] = axes_[i].crossings.data();
+    spacing[i] = spacing_of(first_key[i], start[i], direction[i], lattice_);
+    if (direction[i] < 0.0F) walker.mirror |= kMortonAxis[i];
   }
+  fill(spacing, static_cast<double>(length));
+  for (std::size_t i = 0; i < 3; ++i) walker.crossings[i] = axes_[i].crossings.data();
   walker.mirrored = morton_of(from) ^ walker.mirror;
   const bool reaches = reaches_end();
   for (Axis& axis : axes_) {
@@ -97,18 +99,36 @@ RayWalker RayPath::trace(const Point3f& origin, const VoxelKey& from, const Poin
   return walker;
 }
 
-void RayPath::fill(Axis& axis, double first_m, double delta_m, double length_m) {
-  const std::size_t most = axis.needed + kOvershoot;
-  if (axis.crossings.size() < most + kPadding) axis.crossings.resize(most + kPadding);
-  double* const crossings = axis.crossings.data();
-  std::size_t count = 0;
-  // Repeated addition, not multiplication: the same sums as the oracle's.
-  for (double crossing = first_m; crossing <= length_m && count < most; crossing += delta_m) {
-    crossings[count++] = crossing;
+void RayPath::fill(const std::array<Spacing, 3>& spacing, double length_m) {
+  const std::size_t count =
+      std::max({axes_[0].needed, axes_[1].needed, axes_[2].needed}) + kOvershoot;
+  for (Axis& axis : axes_) {
+    if (axis.crossings.size() < count + kPadding) axis.crossings.resize(count + kPadding);
   }
-  axis.within = count;
-  axis.per_metre = count > 0 ? 1.0 / delta_m : 0.0;
-  for (std::size_t i = 0; i < kPadding; ++i) crossings[count + i] = kNever;
+  double* const xs = axes_[0].crossings.data();
+  double* const ys = axes_[1].crossings.data();
+  double* const zs = axes_[2].crossings.data();
+  double x = spacing[0].first_m;
+  double y = spacing[1].first_m;
+  double z = spacing[2].first_m;
+  // Repeated addition, not multiplication: the same sums as the oracle's. All three axes at once:
+  // each sum waits for the one before.
+  for (std::size_t i = 0; i < count; ++i) {
+    xs[i] = x;
+    ys[i] = y;
+    zs[i] = z;
+    x += spacing[0].delta_m;
+    y += spacing[1].delta_m;
+    z += spacing[2].delta_m;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    Axis& axis = axes_[i];
+    axis.within = axis.needed + kOvershoot;
+    while (axis.within > 0 && !(axis.crossings[axis.within - 1] <= length_m)) --axis.within;
+    axis.per_metre = axis.within > 0 ? 1.0 / spacing[i].delta_m : 0.0;
+    std::fill_n(axis.crossings.begin() + static_cast<std::ptrdiff_t>(axis.within), kPadding,
+                kNever);
+  }
 }
 
 bool RayPath::reaches_end() const {

@@ -78,6 +78,12 @@ struct RayWalker {
 // octomap::OcTree::computeRayKeys, rounding included. Keeps its tables between rays.
 class RayPath {
  public:
+  // Distance along a ray to its first border crossing on an axis, and between two.
+  struct Spacing {
+    double first_m = 0.0;
+    double delta_m = 0.0;
+  };
+
   explicit RayPath(const Lattice& lattice) : lattice_(lattice) {}
 
   // The way from `origin` in voxel `from` to `end` in voxel `to`. The walker reads this object's
@@ -101,7 +107,7 @@ class RayPath {
     std::size_t needed = 0;         // crossings to the end's voxel
     std::size_t used = 0;           // crossings on the way
   };
-  void fill(Axis& axis, double first_m, double delta_m, double length_m);
+  void fill(const std::array<Spacing, 3>& spacing, double length_m);
   bool reaches_end() const;
   template <std::size_t kAxis>
   void unroll_axis(const RayWalker& walker);
