@@ -82,6 +82,8 @@ class BlockStore {
   CellValues& values() { return values_; }
   const CellValues& values() const { return values_; }
 
+  // Blocks that are held: absent and free ones are not.
+  std::uint32_t block_count() const { return pool_.in_use(); }
   std::size_t memory_bytes() const;
 
   BlockStore() = default;

@@ -42,6 +42,14 @@ RayEnd end_of_ray(const Point3f& origin, const Point3f& point, std::optional<dou
           false};
 }
 
+// Why a point has no voxel.
+Rejection reason_outside(const Point3f& point) {
+  if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z)) {
+    return Rejection::kNoReturn;
+  }
+  return is_finite(point) ? Rejection::kOutsideKeySpace : Rejection::kInfinite;
+}
+
 // Marks one scan: all hits, then all passes.
 class ScanTracer {
  public:
@@ -71,13 +79,6 @@ class ScanTracer {
   }
 
  private:
-  static Rejection reason_outside(const Point3f& point) {
-    if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z)) {
-      return Rejection::kNoReturn;
-    }
-    return is_finite(point) ? Rejection::kOutsideKeySpace : Rejection::kInfinite;
-  }
-
   const Lattice& lattice_;
   const LayerScan& scan_;
   VoxelKey origin_;
@@ -92,8 +93,7 @@ void reduce_to_end_voxels(const Lattice& lattice, std::span<const Point3f> point
   for (const Point3f& point : points) {
     const auto key = lattice.key_of(point);
     if (!key) {
-      ++count_of(report.rejected,
-                 is_finite(point) ? Rejection::kOutsideKeySpace : Rejection::kInfinite);
+      ++count_of(report.rejected, reason_outside(point));
       continue;
     }
     const auto code = [](std::int32_t axis) { return static_cast<std::uint64_t>(axis - kKeyMin); };

@@ -55,8 +55,9 @@ FixedSensorModel::FixedSensorModel(const SensorModel& model) {
   const auto steps = [this](double value) {
     return static_cast<std::int16_t>(std::lround(value * per_unit));
   };
-  hit = steps(log_odds[0]);
-  miss = steps(log_odds[1]);
+  // However weak, a hit and a miss move a voxel.
+  hit = std::max<std::int16_t>(steps(log_odds[0]), 1);
+  miss = std::min<std::int16_t>(steps(log_odds[1]), -1);
   minimum = steps(log_odds[2]);
   maximum = steps(log_odds[3]);
 }
