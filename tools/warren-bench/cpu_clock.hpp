@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace warren {
+
+// User CPU time of the calling thread, seconds.
+double user_cpu_s();
+
+}  // namespace warren
