@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/config/config.hpp"
+
+namespace warren {
+
+SensorModel SensorModelConfig::resolved() const {
+  switch (preset) {
+    case SensorModelPreset::kOctomap:
+      return SensorModel::octomap_default();
+    case SensorModelPreset::kField:
+      return SensorModel::field();
+    case SensorModelPreset::kCustom:
+      break;
+  }
+  SensorModel model;
+  model.hit = hit.value_or(model.hit);
+  model.miss = miss.value_or(model.miss);
+  model.minimum = minimum.value_or(model.minimum);
+  model.maximum = maximum.value_or(model.maximum);
+  return model;
+}
+
+SensorFilter SensorConfig::filter() const {
+  SensorFilter filter;
+  filter.min_range_m = min_range_m;
+  filter.max_range_m = max_range_m;
+  if (body_box_low_m && body_box_high_m)
+    filter.body_box = BodyBox{*body_box_low_m, *body_box_high_m};
+  filter.carve_no_returns = carve_no_returns;
+  return filter;
+}
+
+}  // namespace warren

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/voxel/scan.hpp"
+#include "core/voxel/self_map.hpp"
+#include "daemon/log.hpp"
+
+namespace warren {
+
+enum class Role : std::uint8_t { kRobot };
+enum class SensorModelPreset : std::uint8_t { kOctomap, kField, kCustom };
+
+// Permission bits of a socket file.
+struct FileMode {
+  std::uint32_t bits = 0;
+  friend bool operator==(const FileMode&, const FileMode&) = default;
+};
+
+struct SocketConfig {
+  std::filesystem::path path;  // absolute
+  FileMode mode{0660};
+  friend bool operator==(const SocketConfig&, const SocketConfig&) = default;
+};
+
+struct SensorModelConfig {
+  SensorModelPreset preset = SensorModelPreset::kOctomap;
+  // Given exactly when the preset is custom.
+  std::optional<double> hit;
+  std::optional<double> miss;
+  std::optional<double> minimum;
+  std::optional<double> maximum;
+
+  SensorModel resolved() const;
+  friend bool operator==(const SensorModelConfig&, const SensorModelConfig&) = default;
+};
+
+struct MapConfig {
+  double resolution_m = 0.1;
+  SensorModelConfig sensor_model;
+  bool one_ray_per_end_voxel = false;
+
+  SelfMapConfig self_map() const {
+    return {resolution_m, sensor_model.resolved(), one_ray_per_end_voxel};
+  }
+  friend bool operator==(const MapConfig&, const MapConfig&) = default;
+};
+
+struct IngestConfig {
+  std::uint32_t queue_scans = 8;
+  std::uint32_t max_points = 262144;
+  std::uint32_t max_clients = 16;
+  double message_timeout_s = 5.0;
+  friend bool operator==(const IngestConfig&, const IngestConfig&) = default;
+};
+
+struct SensorConfig {
+  std::string name = "lidar";
+  double min_range_m = 0.3;
+  std::optional<double> max_range_m = 20.0;
+  // Both or none.
+  std::optional<Eigen::Vector3d> body_box_low_m;
+  std::optional<Eigen::Vector3d> body_box_high_m;
+  bool carve_no_returns = false;
+
+  SensorFilter filter() const;
+  friend bool operator==(const SensorConfig&, const SensorConfig&) = default;
+};
+
+struct LogConfig {
+  LogLevel level = LogLevel::kInfo;
+  LogFormat format = LogFormat::kAuto;
+  friend bool operator==(const LogConfig&, const LogConfig&) = default;
+};
+
+// Everything an operator can set, with its defaults; schema.hpp tells names, ranges and meaning.
+struct Config {
+  struct Node {
+    std::string name = "robot";
+    Role role = Role::kRobot;
+    friend bool operator==(const Node&, const Node&) = default;
+  };
+  struct Sockets {
+    SocketConfig ingest{"/run/warren/ingest.sock"};
+    SocketConfig control{"/run/warren/control.sock"};
+    friend bool operator==(const Sockets&, const Sockets&) = default;
+  };
+
+  Node node;
+  Sockets sockets;
+  MapConfig map;
+  IngestConfig ingest;
+  std::vector<SensorConfig> sensors{SensorConfig{}};
+  LogConfig log;
+  friend bool operator==(const Config&, const Config&) = default;
+};
+
+}  // namespace warren

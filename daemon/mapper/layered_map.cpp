@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/mapper/layered_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace warren {
+namespace {
+
+std::uint64_t sum(const RejectionCounts& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+std::optional<Eigen::Vector3d> sensor_position_map(const Scan& scan) {
+  const auto T_map_base = scan.T_map_base.checked();
+  const auto T_base_sensor = scan.T_base_sensor.checked();
+  if (!T_map_base || !T_base_sensor) return std::nullopt;
+  return (*T_map_base * *T_base_sensor).translation();
+}
+
+Eigen::Vector3d corner_map_m(const Layer& layer, const VoxelKey& key, double resolution_m) {
+  return layer.origin.position_map(resolution_m) +
+         Eigen::Vector3d(key.x, key.y, key.z) * resolution_m;
+}
+
+// A scan's gravity becomes a unit vector; false when it is no direction.
+bool normalise_gravity(Scan& scan) {
+  const double length = scan.gravity_map.stableNorm();
+  if (!std::isfinite(length) || length == 0.0) return false;
+  scan.gravity_map /= length;
+  return scan.gravity_map.allFinite();
+}
+
+MapInfoReport::Current info_of(const Layer& layer, double resolution_m) {
+  MapInfoReport::Current info;
+  info.frame_epoch = layer.frame_epoch;
+  info.scans = layer.scans;
+  info.counts = layer.voxels.counts();
+  info.origin_map_m = layer.origin.position_map(resolution_m);
+  info.T_fleet_map = layer.T_fleet_map;
+  if (const auto box = layer.voxels.bounds()) {
+    const VoxelKey past{box->high.x + 1, box->high.y + 1, box->high.z + 1};
+    info.known = {corner_map_m(layer, box->low, resolution_m),
+                  corner_map_m(layer, past, resolution_m)};
+  }
+  return info;
+}
+
+}  // namespace
+
+tl::unexpected<std::string> LayeredMap::reject(Rejection reason) {
+  ++count_of(rejected_, reason);
+  return tl::unexpected(std::string(name_of(reason)));
+}
+
+tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::uint64_t frame_epoch,
+                                                               const SensorFilter& filter) {
+  if (!normalise_gravity(scan)) return tl::unexpected(std::string("gravity_map is no direction"));
+  const auto layer = layer_for(scan, frame_epoch);
+  if (!layer) return tl::unexpected(layer.error());
+  Layer& into = **layer;
+
+  RejectionCounts rejected{};
+  const auto prepared =
+      preparer_.prepare(scan, filter, into.origin, config_.resolution_m, rejected);
+  if (!prepared) return reject(Rejection::kOriginOutsideKeySpace);
+  const std::uint64_t prepared_points = prepared->points_layer.size();
+  const IntegrationReport report = into.voxels.integrate(*prepared);
+  ++into.scans;
+
+  for (std::size_t i = 0; i < kRejectionCount; ++i)
+    rejected_[i] += rejected[i] + report.rejected[i];
+  return prepared_points - std::min(prepared_points, sum(report.rejected));
+}
+
+tl::expected<Layer*, std::string> LayeredMap::layer_for(const Scan& scan,
+                                                        std::uint64_t frame_epoch) {
+  const auto found = std::find_if(layers_.begin(), layers_.end(), [&](const auto& layer) {
+    return layer->frame_epoch == frame_epoch;
+  });
+  if (found == layers_.end()) return open_layer(scan, frame_epoch);
+  if (found->get() != layers_.back().get()) {
+    return tl::unexpected(std::string("frame_epoch is over: a later one has begun"));
+  }
+  if (!sensor_position_map(scan)) return reject(Rejection::kBadPose);
+  return found->get();
+}
+
+tl::expected<Layer*, std::string> LayeredMap::open_layer(const Scan& scan,
+                                                         std::uint64_t frame_epoch) {
+  const auto position = sensor_position_map(scan);
+  if (!position) return reject(Rejection::kBadPose);
+  const auto origin = LayerOrigin::snapped(*position, config_.resolution_m);
+  if (!origin) return reject(Rejection::kOriginOutsideKeySpace);
+  if (layers_.size() >= kMaxLayers) {
+    return tl::unexpected(std::string("too many frame epochs: restart warrend"));
+  }
+  // A copy leaves the scratch memory of integration behind: frozen layers need none.
+  if (!layers_.empty()) layers_.back()->voxels = SelfMap(layers_.back()->voxels);
+  layers_.push_back(
+      std::make_unique<Layer>(Layer{frame_epoch, *origin, SelfMap(config_), 0, Pose{}}));
+  return layers_.back().get();
+}
+
+bool LayeredMap::update_pose(const PoseUpdateMessage& update) {
+  if (layers_.empty() || layers_.back()->frame_epoch != update.frame_epoch) return false;
+  if (!update.T_fleet_map.checked()) return false;
+  layers_.back()->T_fleet_map = {update.T_fleet_map.translation,
+                                 update.T_fleet_map.rotation.normalized()};
+  return true;
+}
+
+MapInfoReport LayeredMap::info() const {
+  MapInfoReport info;
+  info.resolution_m = config_.resolution_m;
+  info.layers = static_cast<std::uint32_t>(layers_.size());
+  for (const auto& layer : layers_) info.memory_bytes += layer->voxels.memory_bytes();
+  if (const Layer* const layer = current()) info.current = info_of(*layer, config_.resolution_m);
+  return info;
+}
+
+std::shared_ptr<const MapSnapshot> LayeredMap::snapshot() const {
+  const Layer* const layer = current();
+  if (layer == nullptr) return nullptr;
+  return std::make_shared<const MapSnapshot>(MapSnapshot{layer->origin, layer->voxels});
+}
+
+}  // namespace warren

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "core/exchange/map_snapshot.hpp"
+#include "core/voxel/self_map.hpp"
+#include "daemon/ingest/messages.hpp"
+
+namespace warren {
+
+// What was mapped in one frame epoch.
+struct Layer {
+  std::uint64_t frame_epoch;
+  LayerOrigin origin;
+  SelfMap voxels;
+  std::uint64_t scans = 0;
+  Pose T_fleet_map;
+};
+
+// The current layer and where it lies, in numbers.
+struct MapInfoReport {
+  double resolution_m = 0.0;
+  std::uint32_t layers = 0;
+  std::size_t memory_bytes = 0;  // of all layers
+  struct Current {
+    std::uint64_t frame_epoch = 0;
+    std::uint64_t scans = 0;
+    MapCounts counts;
+    Eigen::Vector3d origin_map_m = Eigen::Vector3d::Zero();
+    struct Box {
+      Eigen::Vector3d low_map_m;
+      Eigen::Vector3d high_map_m;
+    };
+    std::optional<Box> known;
+    Pose T_fleet_map;
+  };
+  std::optional<Current> current;  // nothing before the first scan
+};
+
+// Layers by frame epoch. An epoch that is met for the first time opens a layer around its first
+// pose and freezes those before it; only a scan with a usable pose can do that. One thread.
+class LayeredMap {
+ public:
+  // Memory grows with every layer, and a client could name a new epoch in every scan.
+  static constexpr std::size_t kMaxLayers = 256;
+
+  explicit LayeredMap(const SelfMapConfig& config) : config_(config) {}
+
+  // Points used; or why the scan as a whole was not, in words for the client.
+  tl::expected<std::uint64_t, std::string> integrate(Scan scan, std::uint64_t frame_epoch,
+                                                     const SensorFilter& filter);
+  // False, and nothing changed: not the current epoch, or no rigid pose.
+  bool update_pose(const PoseUpdateMessage& update);
+
+  const Layer* current() const { return layers_.empty() ? nullptr : layers_.back().get(); }
+  std::size_t layer_count() const { return layers_.size(); }
+  const RejectionCounts& rejected() const { return rejected_; }
+  MapInfoReport info() const;
+  // A copy of the current layer; nothing before the first scan.
+  std::shared_ptr<const MapSnapshot> snapshot() const;
+
+ private:
+  tl::expected<Layer*, std::string> layer_for(const Scan& scan, std::uint64_t frame_epoch);
+  tl::expected<Layer*, std::string> open_layer(const Scan& scan, std::uint64_t frame_epoch);
+  tl::unexpected<std::string> reject(Rejection reason);
+
+  SelfMapConfig config_;
+  std::vector<std::unique_ptr<Layer>> layers_;  // the last is the current one
+  ScanPreparer preparer_;
+  RejectionCounts rejected_{};
+};
+
+}  // namespace warren

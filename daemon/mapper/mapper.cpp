@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/mapper/mapper.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <ctime>
+#include <utility>
+
+namespace warren {
+namespace {
+
+double thread_cpu_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+}  // namespace
+
+Mapper::Mapper(const SelfMapConfig& config, SensorFilters filters, std::size_t queue_scans,
+               Dependencies dependencies)
+    : dependencies_(std::move(dependencies)),
+      queue_(queue_scans),
+      map_(config),
+      filters_(std::move(filters)),
+      thread_([this] { run(); }) {}
+
+Mapper::~Mapper() {
+  finish([] {});
+  thread_.join();
+}
+
+std::vector<QueuedScan> Mapper::push(QueuedScan scan) {
+  const std::lock_guard lock(mutex_);
+  work_.notify_one();
+  return queue_.push(std::move(scan));
+}
+
+void Mapper::update_pose(const PoseUpdateMessage& update,
+                         std::function<void(bool applied)> answer) {
+  const std::lock_guard lock(mutex_);
+  assert(commands_.size() < kMaxCommands);
+  commands_.push_back({queue_.entered(), [this, update, answer = std::move(answer)] {
+                         answer(map_.update_pose(update));
+                       }});
+  work_.notify_one();
+}
+
+void Mapper::post(std::function<void()> run) {
+  const std::lock_guard lock(mutex_);
+  assert(commands_.size() < kMaxCommands);
+  commands_.push_back({0, std::move(run)});
+  work_.notify_one();
+}
+
+void Mapper::ask_status(std::function<void(MapperStatus)> answer) {
+  post([this, answer = std::move(answer)] { answer(status()); });
+}
+
+void Mapper::ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer) {
+  post([this, answer = std::move(answer)] { answer(map_.snapshot()); });
+}
+
+void Mapper::set_filters(SensorFilters filters) {
+  post([this, filters = std::move(filters)] { filters_ = filters; });
+}
+
+void Mapper::set_queue_capacity(std::size_t scans) {
+  const std::lock_guard lock(mutex_);
+  queue_.set_capacity(scans);
+}
+
+Mapper::QueueLoad Mapper::queue_load() const {
+  const std::lock_guard lock(mutex_);
+  return {queue_.size(), queue_.capacity()};
+}
+
+void Mapper::request_beat() {
+  if (beat_requested_.exchange(true)) return;
+  post([this] {
+    beat_requested_ = false;
+    ++beats_;
+  });
+}
+
+void Mapper::finish(std::function<void()> done) {
+  const std::lock_guard lock(mutex_);
+  if (finishing_) return;
+  finishing_ = true;
+  finished_ = std::move(done);
+  work_.notify_one();
+}
+
+bool Mapper::command_is_due() const {
+  return !commands_.empty() && commands_.front().after_scans <= queue_.left();
+}
+
+bool Mapper::wait_for_work(std::unique_lock<std::mutex>& lock) {
+  work_.wait(lock, [this] { return finishing_ || command_is_due() || queue_.size() > 0; });
+  return command_is_due() || queue_.size() > 0;
+}
+
+void Mapper::run() {
+  std::unique_lock lock(mutex_);
+  while (wait_for_work(lock)) {
+    if (command_is_due()) {
+      const Command command = std::move(commands_.front());
+      commands_.pop_front();
+      lock.unlock();
+      command.run();
+    } else {
+      auto scan = queue_.pop();
+      lock.unlock();
+      integrate(*scan);
+    }
+    lock.lock();
+  }
+  lock.unlock();
+  finished_();
+}
+
+void Mapper::integrate(QueuedScan& scan) {
+  dependencies_.before_scan();
+  const double before_ms = thread_cpu_ms();
+  const ScanReceipt receipt = receipt_of(scan.message);
+  if (receipt.outcome == ScanOutcome::kTaken) count_cpu(thread_cpu_ms() - before_ms);
+  ++beats_;
+  dependencies_.deliver_receipt(scan, receipt);
+}
+
+void Mapper::count_cpu(double cpu_ms) {
+  ++scans_;
+  cpu_ms_sum_ += cpu_ms;
+  cpu_ms_max_ = std::max(cpu_ms_max_, cpu_ms);
+}
+
+ScanReceipt Mapper::receipt_of(ScanMessage& message) {
+  const auto filter = filters_.find(message.sensor);
+  if (filter == filters_.end()) {
+    return {message.sequence, ScanOutcome::kRejected, "the sensor is no longer in the config", 0};
+  }
+  const auto used = map_.integrate(std::move(message.scan), message.frame_epoch, filter->second);
+  if (!used) return {message.sequence, ScanOutcome::kRejected, used.error(), 0};
+  return {message.sequence, ScanOutcome::kTaken, {}, *used};
+}
+
+MapperStatus Mapper::status() const {
+  MapperStatus status;
+  status.map = map_.info();
+  status.rejected_points = map_.rejected();
+  status.scans = scans_;
+  if (scans_ > 0) status.integrate_cpu_ms_mean = cpu_ms_sum_ / static_cast<double>(scans_);
+  status.integrate_cpu_ms_max = cpu_ms_max_;
+  return status;
+}
+
+}  // namespace warren

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/ingest/replies.hpp"
+#include "daemon/mapper/layered_map.hpp"
+#include "daemon/mapper/scan_queue.hpp"
+
+namespace warren {
+
+using SensorFilters = std::map<std::string, SensorFilter>;
+
+struct MapperStatus {
+  MapInfoReport map;
+  RejectionCounts rejected_points{};
+  std::uint64_t scans = 0;
+  double integrate_cpu_ms_mean = 0.0;
+  double integrate_cpu_ms_max = 0.0;
+};
+
+// The mapping thread: it alone touches the map. Others push scans and ask questions; answers and
+// receipts are called back on the mapping thread, so callbacks must be short and must not wait.
+// Every member function may be called from any thread.
+class Mapper {
+ public:
+  // Every client waits for its answer before it asks again, so their limits keep us below this.
+  static constexpr std::size_t kMaxCommands = 1024;
+
+  struct Dependencies {
+    // What became of each scan that was not dropped by push().
+    std::function<void(const QueuedScan&, const ScanReceipt&)> deliver_receipt;
+    std::function<void()> before_scan = [] {};  // tests hold the thread here
+  };
+
+  Mapper(const SelfMapConfig& config, SensorFilters filters, std::size_t queue_scans,
+         Dependencies dependencies);
+  // Integrates what is queued first.
+  ~Mapper();
+  Mapper(const Mapper&) = delete;
+  Mapper& operator=(const Mapper&) = delete;
+
+  // Those that were dropped to make room.
+  std::vector<QueuedScan> push(QueuedScan scan);
+  // Answered after all scans pushed before it: a client sees its messages take effect in order.
+  void update_pose(const PoseUpdateMessage& update, std::function<void(bool applied)> answer);
+
+  // These come before the scans that wait.
+  void ask_status(std::function<void(MapperStatus)> answer);
+  void ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer);
+  void set_filters(SensorFilters filters);
+  void set_queue_capacity(std::size_t scans);
+
+  struct QueueLoad {
+    std::size_t scans = 0;
+    std::size_t capacity = 0;
+  };
+  QueueLoad queue_load() const;
+
+  // Liveness: ask for a beat, see later whether the count has moved.
+  void request_beat();
+  std::uint64_t beats() const { return beats_.load(); }
+
+  // Integrates and answers everything in hand, calls `done`, ends the thread.
+  void finish(std::function<void()> done);
+
+ private:
+  struct Command {
+    std::uint64_t after_scans = 0;  // runs once so many scans have left the queue
+    std::function<void()> run;
+  };
+
+  void run();
+  // Waits for work; false when there is none and none will come.
+  bool wait_for_work(std::unique_lock<std::mutex>& lock);
+  bool command_is_due() const;
+  void post(std::function<void()> run);
+  void integrate(QueuedScan& scan);
+  ScanReceipt receipt_of(ScanMessage& message);
+  void count_cpu(double cpu_ms);
+  MapperStatus status() const;
+
+  Dependencies dependencies_;
+
+  mutable std::mutex mutex_;  // guards these four
+  std::condition_variable work_;
+  ScanQueue queue_;
+  std::deque<Command> commands_;
+  std::function<void()> finished_;
+  bool finishing_ = false;
+
+  std::atomic<bool> beat_requested_{false};
+  std::atomic<std::uint64_t> beats_{0};
+
+  // Of the mapping thread.
+  LayeredMap map_;
+  SensorFilters filters_;
+  std::uint64_t scans_ = 0;
+  double cpu_ms_sum_ = 0.0;
+  double cpu_ms_max_ = 0.0;
+
+  std::thread thread_;
+};
+
+}  // namespace warren
