@@ -10,7 +10,6 @@ namespace {
 
 using Visit = std::function<void(const OctreeLeaf&)>;
 
-constexpr int kCellLevel = 2;
 constexpr int kBlockLevel = 3;
 constexpr int kRegionLevel = 6;
 

@@ -85,7 +85,7 @@ tl::expected<void, std::string> IngestClient::greet(const std::string& client_na
   ingest::IngestRequest request;
   request.mutable_hello()->set_protocol_version(kProtocolVersion);
   request.mutable_hello()->set_client(client_name);
-  if (const auto sent = stream_.send_message(request.SerializeAsString()); !sent) return sent;
+  if (auto sent = stream_.send_message(request.SerializeAsString()); !sent) return sent;
   const auto bytes = stream_.receive_message(patience);
   if (!bytes) return tl::unexpected(bytes.error());
   if (!*bytes) return tl::unexpected(std::string("the daemon does not answer"));
@@ -100,11 +100,11 @@ tl::expected<void, std::string> IngestClient::greet(const std::string& client_na
 }
 
 tl::expected<void, std::string> IngestClient::send(const OutgoingScan& outgoing) {
-  if (const auto sent = stream_.send_message(header_of(outgoing)); !sent) return sent;
+  if (auto sent = stream_.send_message(header_of(outgoing)); !sent) return sent;
   const auto bytes_of = [](const std::vector<Point3f>& points) {
     return std::as_bytes(std::span(points));
   };
-  if (const auto sent = stream_.send_bytes(bytes_of(outgoing.scan.points_sensor)); !sent) {
+  if (auto sent = stream_.send_bytes(bytes_of(outgoing.scan.points_sensor)); !sent) {
     return sent;
   }
   return stream_.send_bytes(bytes_of(outgoing.scan.no_return_directions_sensor));
