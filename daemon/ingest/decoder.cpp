@@ -5,7 +5,7 @@
 #include <bit>
 #include <cassert>
 
-#include "daemon/framing.hpp"
+#include "proto/framing.hpp"
 
 namespace warren {
 namespace {

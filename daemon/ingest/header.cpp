@@ -130,6 +130,8 @@ tl::expected<IngestHeader, Refused> decode_ingest_header(std::span<const std::by
   }
 }
 
+void silence_protobuf() { google::protobuf::SetLogHandler(nullptr); }
+
 const char* name_of(Refusal refusal) {
   switch (refusal) {
     case Refusal::kHeaderLength:

@@ -46,4 +46,7 @@ struct IngestHeader {
 tl::expected<IngestHeader, Refused> decode_ingest_header(std::span<const std::byte> bytes,
                                                          const IngestLimits& limits);
 
+// Protobuf writes a line to stderr for every malformed string; a client must not fill the log so.
+void silence_protobuf();
+
 }  // namespace warren

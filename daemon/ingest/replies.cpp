@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/ingest/replies.hpp"
 
-#include "daemon/framing.hpp"
+#include "proto/framing.hpp"
 #include "warren/ingest.pb.h"
 
 namespace warren {

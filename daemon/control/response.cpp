@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/control/response.hpp"
+
+#include "proto/framing.hpp"
+#include "warren/control.pb.h"
+
+namespace warren {
+namespace {
+
+void add_vector(const Eigen::Vector3d& v, google::protobuf::RepeatedField<double>& field) {
+  for (const double coordinate : v) field.Add(coordinate);
+}
+
+void add_pose(const Pose& pose, google::protobuf::RepeatedField<double>& field) {
+  add_vector(pose.translation, field);
+  for (const double q : pose.rotation.coeffs()) field.Add(q);  // Eigen's order: x y z w
+}
+
+void fill(const MapInfoReport::Current& current, control::MapInfo& info) {
+  info.set_frame_epoch(current.frame_epoch);
+  info.set_scans(current.scans);
+  info.set_voxels_free(current.counts.free);
+  info.set_voxels_occupied(current.counts.occupied);
+  info.set_blocks(current.counts.blocks);
+  add_vector(current.origin_map_m, *info.mutable_origin_map_m());
+  add_pose(current.T_fleet_map, *info.mutable_t_fleet_map());
+  if (!current.known) return;
+  add_vector(current.known->low_map_m, *info.mutable_low_map_m());
+  add_vector(current.known->high_map_m, *info.mutable_high_map_m());
+}
+
+void fill(const MapInfoReport& report, control::MapInfo& info) {
+  info.set_resolution_m(report.resolution_m);
+  info.set_memory_bytes(report.memory_bytes);
+  info.set_layers(report.layers);
+  if (report.current) fill(*report.current, info);
+}
+
+void add_count(const std::string& name, std::uint64_t count,
+               google::protobuf::RepeatedPtrField<control::Count>& counts) {
+  auto* const entry = counts.Add();
+  entry->set_name(name);
+  entry->set_count(count);
+}
+
+void fill(const IngestStatus& ingest, control::Status& status) {
+  status.set_clients(ingest.clients);
+  status.set_replies_dropped(ingest.replies_dropped);
+  for (std::size_t i = 0; i < kRefusalCount; ++i) {
+    add_count(name_of(static_cast<Refusal>(i)), ingest.refused[i],
+              *status.mutable_refused_frames());
+  }
+  for (const auto& [name, counts] : ingest.sensors) {
+    auto* const sensor = status.add_sensors();
+    sensor->set_name(name);
+    sensor->set_received(counts.received);
+    sensor->set_taken(counts.taken);
+    sensor->set_dropped_overload(counts.dropped_overload);
+    sensor->set_dropped_out_of_order(counts.dropped_out_of_order);
+    sensor->set_rejected(counts.rejected);
+  }
+}
+
+void fill(const MapperStatus& mapper, control::Status& status) {
+  for (std::size_t i = 0; i < kRejectionCount; ++i) {
+    add_count(name_of(static_cast<Rejection>(i)), mapper.rejected_points[i],
+              *status.mutable_rejected_points());
+  }
+  fill(mapper.map, *status.mutable_map());
+  status.set_integrate_cpu_ms_mean(mapper.integrate_cpu_ms_mean);
+  status.set_integrate_cpu_ms_max(mapper.integrate_cpu_ms_max);
+}
+
+}  // namespace
+
+std::string encode_status(const StatusReport& report) {
+  control::Response response;
+  auto& status = *response.mutable_status();
+  status.set_node(report.node);
+  status.set_version(report.version);
+  status.set_uptime_s(report.uptime_s);
+  status.set_queue_scans(static_cast<std::uint32_t>(report.queue.scans));
+  status.set_queue_capacity(static_cast<std::uint32_t>(report.queue.capacity));
+  fill(report.ingest, status);
+  fill(report.mapper, status);
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_map_info(const MapInfoReport& info) {
+  control::Response response;
+  fill(info, *response.mutable_map_info());
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_map_saved(const std::string& path, const SaveReport& report) {
+  control::Response response;
+  auto& saved = *response.mutable_map_saved();
+  saved.set_path(path);
+  saved.set_format(report.format);
+  saved.set_bytes(report.bytes);
+  saved.set_voxels(report.voxels);
+  saved.set_note(report.note);
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_config(const std::string& yaml) {
+  control::Response response;
+  response.mutable_config()->set_yaml(yaml);
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_error(const std::string& text) {
+  control::Response response;
+  response.mutable_error()->set_text(text);
+  return framed(response.SerializeAsString());
+}
+
+}  // namespace warren

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/exchange/map_writer.hpp"
+#include "daemon/ingest/server_status.hpp"
+#include "daemon/mapper/mapper.hpp"
+
+namespace warren {
+
+struct StatusReport {
+  std::string node;
+  std::string version;
+  double uptime_s = 0.0;
+  IngestStatus ingest;
+  Mapper::QueueLoad queue;
+  MapperStatus mapper;
+};
+
+// Responses as they go over the wire, length included.
+std::string encode_status(const StatusReport& report);
+std::string encode_map_info(const MapInfoReport& info);
+std::string encode_map_saved(const std::string& path, const SaveReport& report);
+std::string encode_config(const std::string& yaml);
+std::string encode_error(const std::string& text);
+
+}  // namespace warren

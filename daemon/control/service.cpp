@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/control/service.hpp"
+
+#include <utility>
+
+#include <asio/executor_work_guard.hpp>
+#include <asio/post.hpp>
+
+#include "daemon/config/print.hpp"
+#include "daemon/log.hpp"
+
+namespace warren {
+namespace {
+
+std::string encode_saved(const std::filesystem::path& path, const MapSaver& save_map,
+                         const MapSnapshot& snapshot) {
+  const auto saved = save_map(snapshot, path);
+  if (!saved) return encode_error("cannot save " + path.string() + ": " + saved.error());
+  log_info("control: saved the map to " + path.string());
+  return encode_map_saved(path.string(), *saved);
+}
+
+}  // namespace
+
+ControlService::ControlService(Dependencies dependencies) : parts_(std::move(dependencies)) {}
+
+ControlService::~ControlService() { writer_.join(); }
+
+void ControlService::handle(const ControlRequest& request, const Respond& respond) {
+  std::visit([&](const auto& body) { answer(body, respond); }, request);
+}
+
+// The guards below keep the io_context running until the answer is back.
+
+void ControlService::answer(const StatusQuestion&, const Respond& respond) {
+  parts_.mapper.ask_status(
+      [this, respond, guard = asio::make_work_guard(parts_.io)](const MapperStatus& mapper) {
+        asio::post(parts_.io, [this, respond, mapper] { respond(encode_status(status(mapper))); });
+      });
+}
+
+void ControlService::answer(const MapInfoQuestion&, const Respond& respond) {
+  parts_.mapper.ask_status(
+      [this, respond, guard = asio::make_work_guard(parts_.io)](const MapperStatus& mapper) {
+        asio::post(parts_.io, [respond, map = mapper.map] { respond(encode_map_info(map)); });
+      });
+}
+
+void ControlService::answer(const ConfigQuestion&, const Respond& respond) {
+  respond(encode_config(print_config(parts_.config)));
+}
+
+void ControlService::answer(const SaveOrder& order, const Respond& respond) {
+  if (pending_saves_ >= kMaxPendingSaves) {
+    return respond(encode_error("busy writing other files; try again"));
+  }
+  ++pending_saves_;
+  const Respond done = [this, respond](std::string frame) {
+    --pending_saves_;
+    respond(std::move(frame));
+  };
+  parts_.mapper.ask_snapshot(
+      [this, order, done, guard = asio::make_work_guard(parts_.io)](const auto& snapshot) {
+        asio::post(writer_, [this, order, done, guard, snapshot] { save(order, snapshot, done); });
+      });
+}
+
+// On the worker.
+void ControlService::save(const SaveOrder& order,
+                          const std::shared_ptr<const MapSnapshot>& snapshot,
+                          const Respond& respond) {
+  std::string frame = snapshot ? encode_saved(order.path, parts_.save_map, *snapshot)
+                               : encode_error("there is no map yet: no scan has been taken");
+  asio::post(parts_.io, [respond, frame = std::move(frame)] { respond(frame); });
+}
+
+StatusReport ControlService::status(MapperStatus mapper) const {
+  StatusReport report;
+  report.node = parts_.config.node.name;
+  report.version = parts_.version;
+  report.uptime_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  report.ingest = parts_.ingest.status();
+  report.queue = parts_.mapper.queue_load();
+  report.mapper = std::move(mapper);
+  return report;
+}
+
+}  // namespace warren

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include <asio/io_context.hpp>
+#include <asio/thread_pool.hpp>
+
+#include "core/exchange/map_writer.hpp"
+#include "daemon/control/response.hpp"
+#include "daemon/control/session.hpp"
+#include "daemon/ingest/server.hpp"
+#include "daemon/mapper/mapper.hpp"
+
+namespace warren {
+
+using MapSaver = std::function<tl::expected<SaveReport, std::string>(const MapSnapshot&,
+                                                                     const std::filesystem::path&)>;
+
+// Answers control requests: asks the mapping thread, writes files on a worker of its own.
+class ControlService {
+ public:
+  // A snapshot is a copy of the map: memory bounds how many may wait for the disk.
+  static constexpr std::size_t kMaxPendingSaves = 2;
+
+  struct Dependencies {
+    asio::io_context& io;
+    Mapper& mapper;
+    const IngestServer& ingest;
+    const Config& config;  // as it is in force
+    MapSaver save_map;
+    std::string version;
+  };
+
+  explicit ControlService(Dependencies dependencies);
+  // Waits for files being written.
+  ~ControlService();
+  ControlService(const ControlService&) = delete;
+  ControlService& operator=(const ControlService&) = delete;
+
+  using Respond = std::function<void(std::string)>;
+  void handle(const ControlRequest& request, const Respond& respond);
+
+ private:
+  void answer(const StatusQuestion& question, const Respond& respond);
+  void answer(const MapInfoQuestion& question, const Respond& respond);
+  void answer(const ConfigQuestion& question, const Respond& respond);
+  void answer(const SaveOrder& order, const Respond& respond);
+  void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,
+            const Respond& respond);
+  StatusReport status(MapperStatus mapper) const;
+
+  Dependencies parts_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  std::size_t pending_saves_ = 0;
+  asio::thread_pool writer_{1};
+};
+
+}  // namespace warren

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace warren {
+
+// Lets a few lines per minute through, so that a client in a loop cannot flood the log. What it
+// holds back is counted elsewhere: in status.
+class LogThrottle {
+ public:
+  static constexpr std::uint32_t kLinesPerMinute = 20;
+  using Time = std::chrono::steady_clock::time_point;
+
+  bool allows(Time now) {
+    if (now - minute_began_ >= std::chrono::minutes(1)) {
+      minute_began_ = now;
+      lines_ = 0;
+    }
+    return lines_++ < kLinesPerMinute;
+  }
+
+ private:
+  Time minute_began_{};
+  std::uint32_t lines_ = 0;
+};
+
+}  // namespace warren

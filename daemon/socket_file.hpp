@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <sys/types.h>
+#include <tl/expected.hpp>
+
+#include "daemon/config/config.hpp"
+
+namespace warren {
+
+// A listening unix stream socket and its file. A file that a dead process left behind is replaced,
+// one behind which somebody listens is not. The file goes with the object, if it is still ours.
+class SocketFile {
+ public:
+  // The error tells the path and what to do.
+  static tl::expected<SocketFile, std::string> listen(const SocketConfig& config);
+
+  ~SocketFile();
+  SocketFile(SocketFile&& other) noexcept;
+  SocketFile& operator=(SocketFile&&) = delete;
+
+  // Hands the listening descriptor over; the file stays here.
+  int release_descriptor();
+
+ private:
+  SocketFile(std::filesystem::path path, int descriptor)
+      : path_(std::move(path)), descriptor_(descriptor) {}
+  tl::expected<void, std::string> bind_and_listen(FileMode mode);
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  dev_t device_ = 0;  // of the file as we made it; 0: none yet
+  ino_t inode_ = 0;
+};
+
+}  // namespace warren

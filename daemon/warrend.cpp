@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/warrend.hpp"
+
+#include <utility>
+
+#include <asio/post.hpp>
+
+#include "daemon/config/load.hpp"
+#include "daemon/config/print.hpp"
+#include "daemon/ingest/header.hpp"
+#include "daemon/log.hpp"
+
+namespace warren {
+namespace {
+
+SensorFilters filters_of(const Config& config) {
+  SensorFilters filters;
+  for (const SensorConfig& sensor : config.sensors) filters[sensor.name] = sensor.filter();
+  return filters;
+}
+
+}  // namespace
+
+tl::expected<std::unique_ptr<Warrend>, std::string> Warrend::start(
+    asio::io_context& io, const Config& config, const std::filesystem::path& config_file,
+    Dependencies dependencies) {
+  silence_protobuf();
+  auto ingest = SocketFile::listen(config.sockets.ingest);
+  if (!ingest) return tl::unexpected(ingest.error());
+  auto control = SocketFile::listen(config.sockets.control);
+  if (!control) return tl::unexpected(control.error());
+  std::unique_ptr<Warrend> warrend(new Warrend(io, config, config_file, std::move(*ingest),
+                                               std::move(*control), std::move(dependencies)));
+  warrend->ingest_.start();
+  warrend->control_.start();
+  const auto& watchdog_time = warrend->dependencies_.watchdog_time;
+  if (watchdog_time) warrend->watchdog_.start(*watchdog_time);
+  warrend->dependencies_.notify("READY=1\nSTATUS=Mapping");
+  log_info(config.node.name + ": ready, scans to " + config.sockets.ingest.path.string());
+  return warrend;
+}
+
+Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::path config_file,
+                 SocketFile ingest_socket, SocketFile control_socket, Dependencies dependencies)
+    : io_(io),
+      running_(asio::make_work_guard(io)),
+      config_(config),
+      config_file_(std::move(config_file)),
+      dependencies_(std::move(dependencies)),
+      ingest_socket_(std::move(ingest_socket)),
+      control_socket_(std::move(control_socket)),
+      mapper_(config.map.self_map(), filters_of(config), config.ingest.queue_scans,
+              mapper_dependencies()),
+      ingest_(io, ingest_socket_.release_descriptor(), config, mapper_),
+      service_(service_dependencies()),
+      control_(io, control_socket_.release_descriptor(),
+               [this](const ControlRequest& request, const ControlService::Respond& respond) {
+                 service_.handle(request, respond);
+               }),
+      watchdog_(io, mapper_, [this] { dependencies_.notify("WATCHDOG=1"); }) {}
+
+Mapper::Dependencies Warrend::mapper_dependencies() {
+  const auto deliver = [this](const QueuedScan& scan, const ScanReceipt& receipt) {
+    asio::post(io_, [this, client = scan.client, sensor = scan.message.sensor, receipt] {
+      ingest_.deliver(client, sensor, receipt);
+    });
+  };
+  return {deliver, dependencies_.before_scan};
+}
+
+ControlService::Dependencies Warrend::service_dependencies() {
+  return {io_, mapper_, ingest_, config_, dependencies_.save_map, WARREN_VERSION};
+}
+
+void Warrend::request_stop() {
+  asio::post(io_, [this] { stop(); });
+}
+
+void Warrend::request_reload() {
+  asio::post(io_, [this] { reload(); });
+}
+
+void Warrend::stop() {
+  if (std::exchange(stopping_, true)) return;
+  log_info("stopping: integrating what has arrived");
+  dependencies_.notify("STOPPING=1\nSTATUS=Integrating what has arrived");
+  control_.finish();
+  ingest_.drain([this] { on_drained(); });
+}
+
+void Warrend::on_drained() {
+  mapper_.finish([this] { asio::post(io_, [this] { on_mapper_finished(); }); });
+}
+
+// All receipts have been posted before.
+void Warrend::on_mapper_finished() {
+  ingest_.finish();
+  watchdog_.stop();
+  running_.reset();
+}
+
+void Warrend::reload() {
+  if (stopping_) return;
+  dependencies_.notify("RELOADING=1");
+  const auto loaded = load_config(config_file_);
+  if (loaded) {
+    apply(*loaded);
+  } else {
+    log_error("reload: the config stays as it is");
+    for (const std::string& fault : loaded.error()) log_error("reload: " + fault);
+  }
+  dependencies_.notify(loaded ? "READY=1\nSTATUS=Mapping"
+                              : "READY=1\nSTATUS=Mapping; the config file has faults, see the log");
+}
+
+void Warrend::apply(const Config& wanted) {
+  const ConfigChanges changes = compare_configs(config_, wanted);
+  config_ = reloaded(config_, wanted);
+  set_log_level(config_.log.level);
+  mapper_.set_filters(filters_of(config_));
+  mapper_.set_queue_capacity(config_.ingest.queue_scans);
+  ingest_.reconfigure(config_);
+  for (const std::string& key : changes.effective) log_info("reload: " + key + " changed");
+  for (const std::string& key : changes.needs_restart) {
+    log_warning("reload: " + key + " differs in the file; that needs a restart");
+  }
+  if (changes.effective.empty() && changes.needs_restart.empty()) log_info("reload: no change");
+}
+
+}  // namespace warren

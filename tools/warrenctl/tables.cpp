@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/warrenctl/tables.hpp"
+
+#include <iomanip>
+#include <sstream>
+
+#include <google/protobuf/util/json_util.h>
+
+#include "warren/control.pb.h"
+
+namespace warren {
+namespace {
+
+constexpr int kLabelWidth = 20;
+constexpr int kColumnWidth = 14;
+constexpr double kBytesPerMegabyte = 1e6;
+
+using Numbers = google::protobuf::RepeatedField<double>;
+using Counts = google::protobuf::RepeatedPtrField<control::Count>;
+
+std::ostream& label(std::ostream& out, const std::string& text) {
+  return out << std::left << std::setw(kLabelWidth) << text << std::right;
+}
+
+std::string listed(const Numbers& numbers, int decimals) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(decimals);
+  for (int i = 0; i < numbers.size(); ++i) out << (i == 0 ? "" : ", ") << numbers[i];
+  return numbers.empty() ? "-" : out.str();
+}
+
+// Only what happened; a line of zeros helps nobody.
+std::string listed(const Counts& counts) {
+  std::string text;
+  for (const auto& count : counts) {
+    if (count.count() == 0) continue;
+    text.append(text.empty() ? "" : ", ").append(count.name()).append(" ");
+    text.append(std::to_string(count.count()));
+  }
+  return text.empty() ? "none" : text;
+}
+
+void add_sensors(std::ostream& out, const control::Status& status) {
+  label(out, "sensor");
+  for (const char* const head : {"received", "taken", "overload", "out of order", "rejected"}) {
+    out << std::setw(kColumnWidth) << head;
+  }
+  out << "\n";
+  for (const auto& sensor : status.sensors()) {
+    label(out, "  " + sensor.name());
+    for (const auto count : {sensor.received(), sensor.taken(), sensor.dropped_overload(),
+                             sensor.dropped_out_of_order(), sensor.rejected()}) {
+      out << std::setw(kColumnWidth) << count;
+    }
+    out << "\n";
+  }
+}
+
+}  // namespace
+
+std::string table_of(const control::Status& status) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(1);
+  label(out, "node") << status.node() << ", warrend " << status.version() << ", up "
+                     << status.uptime_s() << " s\n";
+  label(out, "clients") << status.clients() << "\n";
+  label(out, "queue") << status.queue_scans() << " of " << status.queue_capacity() << " scans\n";
+  add_sensors(out, status);
+  label(out, "integration") << std::setprecision(2) << status.integrate_cpu_ms_mean()
+                            << " ms CPU per scan, at most " << status.integrate_cpu_ms_max()
+                            << " ms\n";
+  label(out, "points not used") << listed(status.rejected_points()) << "\n";
+  label(out, "clients refused") << listed(status.refused_frames()) << "\n";
+  if (status.replies_dropped() > 0) {
+    label(out, "replies not read") << status.replies_dropped() << "\n";
+  }
+  return out.str() + table_of(status.map());
+}
+
+std::string table_of(const control::MapInfo& info) {
+  std::ostringstream out;
+  label(out, "resolution") << info.resolution_m() << " m\n";
+  if (info.layers() == 0) {
+    label(out, "map") << "empty: no scan has been taken\n";
+    return out.str();
+  }
+  label(out, "scans in the map") << info.scans() << "\n";
+  label(out, "voxels") << info.voxels_occupied() << " occupied, " << info.voxels_free()
+                       << " free\n";
+  label(out, "blocks") << info.blocks() << "\n";
+  label(out, "memory") << std::fixed << std::setprecision(1)
+                       << static_cast<double>(info.memory_bytes()) / kBytesPerMegabyte << " MB\n";
+  label(out, "frame epoch") << info.frame_epoch() << " (layer " << info.layers() << ")\n";
+  label(out, "origin in map, m") << listed(info.origin_map_m(), 2) << "\n";
+  label(out, "known from, m") << listed(info.low_map_m(), 1) << "\n";
+  label(out, "known to, m") << listed(info.high_map_m(), 1) << "\n";
+  label(out, "map in fleet") << listed(info.t_fleet_map(), 3) << " (x y z m, qx qy qz qw)\n";
+  return out.str();
+}
+
+std::string sentence_of(const control::MapSaved& saved) {
+  std::ostringstream out;
+  out << saved.path() << ": " << saved.voxels() << " voxels, " << saved.bytes() << " bytes";
+  if (!saved.note().empty()) out << " (" << saved.note() << ")";
+  out << "\n";
+  return out.str();
+}
+
+std::string json_of(const google::protobuf::Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  options.preserve_proto_field_names = true;
+  options.add_whitespace = true;
+  std::string json;
+  const auto printed = google::protobuf::util::MessageToJsonString(message, &json, options);
+  return printed.ok() ? json : "{}\n";
+}
+
+}  // namespace warren

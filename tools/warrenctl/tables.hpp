@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace warren::control {
+class MapInfo;
+class MapSaved;
+class Status;
+}  // namespace warren::control
+
+namespace google::protobuf {
+class Message;
+}
+
+namespace warren {
+
+// Aligned text for people.
+std::string table_of(const control::Status& status);
+std::string table_of(const control::MapInfo& info);
+std::string sentence_of(const control::MapSaved& saved);
+// Every field, by its name in the .proto; 64-bit integers are strings, as protobuf's JSON has them.
+std::string json_of(const google::protobuf::Message& message);
+
+}  // namespace warren
