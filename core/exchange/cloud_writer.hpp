@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "core/exchange/atomic_file.hpp"
+#include "core/exchange/map_snapshot.hpp"
+
+namespace warren {
+
+// Write the centres of the occupied voxels, `shift` voxels away from the layer's, as binary float32
+// x y z p: metres and probability of occupancy.
+WriteResult write_pcd(const MapSnapshot& map, const LayerOrigin& shift,
+                      const std::filesystem::path& file);
+WriteResult write_ply(const MapSnapshot& map, const LayerOrigin& shift,
+                      const std::filesystem::path& file);
+
+}  // namespace warren

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/exchange/map_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "core/exchange/image.hpp"
+#include "core/exchange/map_relief.hpp"
+#include "core/exchange/splat_view.hpp"
+
+namespace warren {
+namespace {
+
+constexpr int kWidth = 1600;
+constexpr int kHeight = 900;
+constexpr Rectangle kTopPanel{20, 84, 770, 740};
+constexpr Rectangle kObliquePanel{810, 84, 770, 740};
+constexpr Rectangle kLegend{1180, 862, 300, 14};
+constexpr int kTextHeight = 16;
+
+constexpr Colour kPage{24, 26, 31};
+constexpr Colour kPanel{13, 14, 17};
+constexpr Colour kFreeGround{58, 63, 72};
+constexpr Colour kText{226, 228, 232};
+constexpr Colour kFaintText{150, 155, 164};
+// Even steps of lightness from low to high, so that heights also read in grey.
+constexpr std::array<Colour, 6> kHeightColours = {{{64, 62, 140},
+                                                   {44, 106, 160},
+                                                   {34, 146, 142},
+                                                   {82, 184, 104},
+                                                   {176, 214, 72},
+                                                   {252, 232, 96}}};
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+Colour height_colour(double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * (kHeightColours.size() - 1);
+  const auto step = std::min(static_cast<std::size_t>(place), kHeightColours.size() - 2);
+  const double part = place - static_cast<double>(step);
+  const Colour& low = kHeightColours[step];
+  const Colour& high = kHeightColours[step + 1];
+  const auto mix = [part](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(a * (1.0 - part) + b * part);
+  };
+  return {mix(low.red, high.red), mix(low.green, high.green), mix(low.blue, high.blue)};
+}
+
+Eigen::Vector3d centre_of(const VoxelKey& key) {
+  return Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5);
+}
+
+// Points from the occupied neighbours to the free ones; zero when they are balanced.
+Eigen::Vector3f normal_of(const SelfMap& map, const VoxelKey& key) {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3i step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (step.isZero()) continue;
+    const VoxelState state =
+        map.state(VoxelKey{key.x + step.x(), key.y + step.y(), key.z + step.z()});
+    const float weight = state == VoxelState::kFree       ? 1.0F
+                         : state == VoxelState::kOccupied ? -1.0F
+                                                          : 0.0F;
+    normal += weight * step.cast<float>() / static_cast<float>(step.squaredNorm());
+  }
+  return normal.squaredNorm() > 0.5F ? normal.normalized() : Eigen::Vector3f::Zero();
+}
+
+std::string metres(double value, int decimals) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f m", decimals, value);
+  return text.data();
+}
+
+// 1234567 as "1 234 567".
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ' ');
+  return text;
+}
+
+// Largest of 1, 2, 5 times a power of ten that is at most `limit`.
+double round_length(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  return power * (limit >= 5.0 * power ? 5.0 : limit >= 2.0 * power ? 2.0 : 1.0);
+}
+
+class MapPicture {
+ public:
+  explicit MapPicture(const MapSnapshot& map)
+      : map_(map), resolution_m_(map.voxels.lattice().resolution_m()) {}
+
+  Image draw() {
+    draw_title();
+    for (const Rectangle& panel : {kTopPanel, kObliquePanel}) image_.fill(panel, kPanel);
+    caption(kTopPanel, "from above, without what is 2 m over the ground");
+    caption(kObliquePanel, "the same, seen obliquely");
+    const auto bounds = map_.voxels.bounds();
+    if (!bounds) return std::move(image_);
+    const MapRelief relief(map_.voxels, *bounds);
+    if (!relief.extent()) return std::move(image_);
+    draw_views(relief, *relief.extent());
+    draw_legend(*relief.extent());
+    return std::move(image_);
+  }
+
+ private:
+  void draw_title() {
+    const MapCounts counts = map_.voxels.counts();
+    image_.draw_text(20, 18, "warren map", kText, 3);
+    image_.draw_text(230, 23,
+                     "resolution " + metres(resolution_m_, 3) + ",  " + grouped(counts.occupied) +
+                         " occupied and " + grouped(counts.free) + " free voxels",
+                     kFaintText);
+  }
+
+  void caption(const Rectangle& panel, const std::string& text) {
+    image_.draw_text(panel.left, panel.top - kTextHeight - 6, text, kFaintText);
+  }
+
+  void draw_views(const MapRelief& relief, const KeyBox& extent) {
+    const Eigen::AlignedBox3d box(centre_of(extent.low), centre_of(extent.high));
+    SplatView top(Camera(90.0 * kDegree, 90.0 * kDegree), box, kTopPanel.width, kTopPanel.height);
+    SplatView oblique(Camera(60.0 * kDegree, 40.0 * kDegree), box, kObliquePanel.width,
+                      kObliquePanel.height);
+    relief.for_each_free_cell([&](const VoxelKey& key, std::int32_t edge) {
+      top.add_ground(centre_of(key), edge, kFreeGround);
+      oblique.add_ground(centre_of(key), edge, kFreeGround);
+    });
+    map_.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
+      if (state != VoxelState::kOccupied || !relief.is_shown(key)) return;
+      const Eigen::Vector3f normal = normal_of(map_.voxels, key);
+      const Colour colour = height_colour(static_cast<double>(key.z - extent.low.z) /
+                                          std::max(1, extent.high.z - extent.low.z));
+      top.add_cube(centre_of(key), 1.0, normal, colour);
+      oblique.add_cube(centre_of(key), 1.0, normal, colour);
+    });
+    top.draw_to(image_, kTopPanel.left, kTopPanel.top);
+    oblique.draw_to(image_, kObliquePanel.left, kObliquePanel.top);
+    draw_scale(kTopPanel, top.pixels_per_voxel() / resolution_m_, "x right, y up");
+    draw_scale(kObliquePanel, oblique.pixels_per_voxel() / resolution_m_, "left to right only");
+  }
+
+  void draw_scale(const Rectangle& panel, double pixels_per_m, const std::string& note) {
+    const double length_m = round_length(panel.width / 4.0 / pixels_per_m);
+    const int length = static_cast<int>(std::lround(length_m * pixels_per_m));
+    const int top = panel.top + panel.height + 14;
+    image_.fill({panel.left, top, length, 4}, kText);
+    image_.fill({panel.left, top - 5, 2, 14}, kText);
+    image_.fill({panel.left + length - 2, top - 5, 2, 14}, kText);
+    const std::string text = metres(length_m, length_m < 1.0 ? 2 : 0);
+    image_.draw_text(panel.left + length + 12, top - 6, text, kText);
+    image_.draw_text(panel.left + length + 24 + Image::text_width(text), top - 6, note, kFaintText);
+  }
+
+  void draw_legend(const KeyBox& extent) {
+    for (int x = 0; x < kLegend.width; ++x) {
+      image_.fill({kLegend.left + x, kLegend.top, 1, kLegend.height},
+                  height_colour(static_cast<double>(x) / (kLegend.width - 1)));
+    }
+    const std::string low = std::string("height ").append(height(extent.low.z));
+    image_.draw_text(kLegend.left - 12 - Image::text_width(low), kLegend.top - 1, low, kText);
+    image_.draw_text(kLegend.left + kLegend.width + 12, kLegend.top - 1, height(extent.high.z),
+                     kText);
+    image_.fill({kTopPanel.left, kLegend.top, kLegend.height, kLegend.height}, kFreeGround);
+    image_.draw_text(kTopPanel.left + 24, kLegend.top - 1, "free, ground not seen", kFaintText);
+  }
+
+  std::string height(std::int32_t key_z) const {
+    const double in_map = static_cast<double>(map_.origin.z + key_z) + 0.5;
+    return metres(in_map * resolution_m_, 1);
+  }
+
+  const MapSnapshot& map_;
+  double resolution_m_;
+  Image image_{kWidth, kHeight, kPage};
+};
+
+}  // namespace
+
+WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file) {
+  return write_png(MapPicture(map).draw(), file);
+}
+
+}  // namespace warren

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "core/exchange/atomic_file.hpp"
+#include "core/exchange/map_snapshot.hpp"
+
+namespace warren {
+
+// Draws the map for people, 1600x900: a view from above and an oblique one, both without what lies
+// 2 m or more above the local ground, coloured by height in the map frame (z up), with scales.
+WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file);
+
+}  // namespace warren
