@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -89,11 +90,7 @@ tl::expected<void, std::string> SocketFile::bind_and_listen(FileMode mode) {
   if (::bind(descriptor_, generic(address), sizeof address) != 0) {
     return failure(path_, "cannot create the socket (does its directory exist?)");
   }
-  struct stat status {};
-  if (::lstat(path_.c_str(), &status) == 0) {
-    device_ = status.st_dev;
-    inode_ = status.st_ino;
-  }
+  file_ = ::open(path_.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC);
   if (::chmod(path_.c_str(), mode.bits) != 0) return failure(path_, "cannot set the socket's mode");
   if (::listen(descriptor_, kBacklog) != 0) return failure(path_, "cannot listen");
   return {};
@@ -102,16 +99,17 @@ tl::expected<void, std::string> SocketFile::bind_and_listen(FileMode mode) {
 SocketFile::SocketFile(SocketFile&& other) noexcept
     : path_(std::exchange(other.path_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      device_(std::exchange(other.device_, 0)),
-      inode_(std::exchange(other.inode_, 0)) {}
+      file_(std::exchange(other.file_, -1)) {}
 
 SocketFile::~SocketFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (inode_ == 0) return;
-  struct stat status {};
-  const bool is_ours =
-      ::lstat(path_.c_str(), &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
+  if (file_ < 0) return;
+  struct stat ours {};
+  struct stat there {};
+  const bool is_ours = ::fstat(file_, &ours) == 0 && ::lstat(path_.c_str(), &there) == 0 &&
+                       ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
   if (is_ours) ::unlink(path_.c_str());
+  ::close(file_);
 }
 
 int SocketFile::release_descriptor() { return std::exchange(descriptor_, -1); }

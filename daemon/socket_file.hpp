@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include <sys/types.h>
 #include <tl/expected.hpp>
 
 #include "daemon/config/config.hpp"
@@ -32,8 +31,8 @@ class SocketFile {
 
   std::filesystem::path path_;
   int descriptor_ = -1;
-  dev_t device_ = 0;  // of the file as we made it; 0: none yet
-  ino_t inode_ = 0;
+  int file_ =
+      -1;  // the file itself (O_PATH): while it is held, no other file gets its inode number
 };
 
 }  // namespace warren

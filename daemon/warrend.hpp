@@ -29,7 +29,7 @@ class Warrend {
     MapSaver save_map;
     // Tells the service manager, in sd_notify's words.
     std::function<void(const std::string&)> notify = [](const std::string&) {};
-    std::optional<std::chrono::microseconds> watchdog_time;
+    std::optional<std::chrono::microseconds> watchdog_time{};
     std::function<void()> before_scan = [] {};  // tests hold the mapping thread here
   };
 

@@ -66,6 +66,16 @@ const char* name_of(Rejection reason) {
       return "bad_pose";
     case Rejection::kOriginOutsideKeySpace:
       return "origin_outside_key_space";
+    case Rejection::kBadGravity:
+      return "bad_gravity";
+    case Rejection::kNoReturnIgnored:
+      return "no_return_ignored";
+    case Rejection::kFrameEpochOver:
+      return "frame_epoch_over";
+    case Rejection::kTooManyFrameEpochs:
+      return "too_many_frame_epochs";
+    case Rejection::kSensorRemoved:
+      return "sensor_removed";
   }
   return "unknown";
 }
@@ -128,7 +138,10 @@ void ScanPreparer::carve_no_returns(const Scan& scan, const SensorFilter& filter
                                     const Eigen::Isometry3d& T_layer_sensor,
                                     RejectionCounts& rejected) {
   carved_ends_layer_.clear();
-  if (!filter.carve_no_returns || !filter.max_range_m) return;
+  if (!filter.carve_no_returns || !filter.max_range_m) {
+    count_of(rejected, Rejection::kNoReturnIgnored) += scan.no_return_directions_sensor.size();
+    return;
+  }
   for (const Point3f& direction : scan.no_return_directions_sensor) {
     const Eigen::Vector3d along = to_vector(direction);
     const double norm = along.norm();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,14 +27,22 @@ enum class Rejection : std::uint8_t {
   kBadDirection,           // a no-return direction that is zero or not finite
   kBadPose,                // the scan: non-finite pose, or a quaternion that is no rotation
   kOriginOutsideKeySpace,  // the scan: its sensor is outside the layer's key space
+  kBadGravity,             // the scan: a gravity direction that is zero or not finite
+  kNoReturnIgnored,        // a no-return direction, and the config says not to carve
+  kFrameEpochOver,         // the scan: a later frame epoch has begun
+  kTooManyFrameEpochs,     // the scan: it would open more layers than are allowed
+  kSensorRemoved,          // the scan: a reload has taken its sensor out of the config
 };
-inline constexpr std::size_t kRejectionCount = 9;
+inline constexpr std::size_t kRejectionCount = 14;
 // snake_case, as it stands in status and metrics.
 const char* name_of(Rejection reason);
 
 using RejectionCounts = std::array<std::uint64_t, kRejectionCount>;
 inline std::uint64_t& count_of(RejectionCounts& counts, Rejection reason) {
   return counts[static_cast<std::size_t>(reason)];
+}
+inline std::uint64_t sum(const RejectionCounts& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 // Rigid pose as it comes from outside: not yet trusted.

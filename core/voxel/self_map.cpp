@@ -149,6 +149,7 @@ IntegrationReport SelfMap::integrate(const LayerScan& scan) {
   ScanTracer tracer(lattice_, scan, *origin, report);
   tracer.mark_hits(points, marker);
   tracer.mark_passes(points, scratch_->path, marker);
+  report.points_used = scan.points_layer.size() - sum(report.rejected);
   tracer.mark_passes(scan.carved_ends_layer, scratch_->path, marker);
 
   const CommitCounts counts = commit_marks(marker, model_, scans_, store_);

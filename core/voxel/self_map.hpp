@@ -22,6 +22,7 @@ struct SelfMapConfig {
 };
 
 struct IntegrationReport {
+  std::uint64_t points_used = 0;  // of points_layer
   std::uint64_t rays = 0;
   std::uint64_t voxels_hit = 0;
   std::uint64_t voxels_passed = 0;  // passed, not hit, and not yet at the free clamp

@@ -9,6 +9,13 @@
 
 namespace warren {
 
+// What a file's keys and values bring along must neither break a fault's line nor steer a terminal.
+inline std::string one_line(std::string text) {
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
+}
+
 // Collects what is wrong in a config file, and where.
 class FaultList {
  public:
@@ -21,7 +28,7 @@ class FaultList {
     add_at(line == lines_.end() ? 1 : line->second, key + ": " + what);
   }
   void add_at(int line, const std::string& what) {
-    if (faults_.size() < kMaxFaults) faults_.emplace_back(line, what);
+    if (faults_.size() < kMaxFaults) faults_.emplace_back(line, one_line(what));
   }
 
   bool empty() const { return faults_.empty(); }

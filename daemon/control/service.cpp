@@ -12,10 +12,12 @@
 namespace warren {
 namespace {
 
+constexpr const char* kTooBusy = "too many questions wait for the mapping thread; try again";
+
 std::string encode_saved(const std::filesystem::path& path, const MapSaver& save_map,
                          const MapSnapshot& snapshot) {
   const auto saved = save_map(snapshot, path);
-  if (!saved) return encode_error("cannot save " + path.string() + ": " + saved.error());
+  if (!saved) return encode_error(saved.error());
   log_info("control: saved the map to " + path.string());
   return encode_map_saved(path.string(), *saved);
 }
@@ -33,17 +35,19 @@ void ControlService::handle(const ControlRequest& request, const Respond& respon
 // The guards below keep the io_context running until the answer is back.
 
 void ControlService::answer(const StatusQuestion&, const Respond& respond) {
-  parts_.mapper.ask_status(
+  const bool asked = parts_.mapper.ask_status(
       [this, respond, guard = asio::make_work_guard(parts_.io)](const MapperStatus& mapper) {
         asio::post(parts_.io, [this, respond, mapper] { respond(encode_status(status(mapper))); });
       });
+  if (!asked) respond(encode_error(kTooBusy));
 }
 
 void ControlService::answer(const MapInfoQuestion&, const Respond& respond) {
-  parts_.mapper.ask_status(
+  const bool asked = parts_.mapper.ask_status(
       [this, respond, guard = asio::make_work_guard(parts_.io)](const MapperStatus& mapper) {
         asio::post(parts_.io, [respond, map = mapper.map] { respond(encode_map_info(map)); });
       });
+  if (!asked) respond(encode_error(kTooBusy));
 }
 
 void ControlService::answer(const ConfigQuestion&, const Respond& respond) {
@@ -59,10 +63,11 @@ void ControlService::answer(const SaveOrder& order, const Respond& respond) {
     --pending_saves_;
     respond(std::move(frame));
   };
-  parts_.mapper.ask_snapshot(
+  const bool asked = parts_.mapper.ask_snapshot(
       [this, order, done, guard = asio::make_work_guard(parts_.io)](const auto& snapshot) {
         asio::post(writer_, [this, order, done, guard, snapshot] { save(order, snapshot, done); });
       });
+  if (!asked) done(encode_error(kTooBusy));
 }
 
 // On the worker.

@@ -20,7 +20,16 @@ ControlSession::ControlSession(Socket socket, const ControlHandler& handler,
       on_closed_(std::move(on_closed)) {}
 
 void ControlSession::read_length_bytes() {
-  asio::async_read(socket_, asio::buffer(length_),
+  socket_.async_read_some(asio::buffer(length_),
+                          [self = shared_from_this()](std::error_code error, std::size_t count) {
+                            if (error) return self->close();
+                            self->watch(kMessageTime);
+                            self->read_rest_of_length(count);
+                          });
+}
+
+void ControlSession::read_rest_of_length(std::size_t count) {
+  asio::async_read(socket_, asio::buffer(asio::buffer(length_) + count),
                    [self = shared_from_this()](std::error_code error, std::size_t) {
                      if (error) return self->close();
                      self->read_body();
@@ -33,7 +42,6 @@ void ControlSession::read_body() {
   if (length == 0 || length > kMaxControlFrameBytes) {
     return respond(encode_error("a request's length must be 1 to 1048576 bytes"), true);
   }
-  watch(kMessageTime);
   body_.resize(length);
   asio::async_read(socket_, asio::buffer(body_),
                    [self = shared_from_this()](std::error_code error, std::size_t) {

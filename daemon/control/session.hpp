@@ -37,6 +37,7 @@ class ControlSession : public std::enable_shared_from_this<ControlSession> {
 
  private:
   void read_length_bytes();
+  void read_rest_of_length(std::size_t count);
   void read_body();
   void handle();
   void respond(std::string frame, bool close_after);

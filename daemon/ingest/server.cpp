@@ -106,7 +106,7 @@ void IngestServer::take(IngestSession& session, PoseUpdateMessage&& update) {
       waiting->resume();
     });
   };
-  mapper_.update_pose(update, answer);
+  if (!mapper_.update_pose(update, answer)) answer(false);
 }
 
 void IngestServer::deliver(ClientId client, const std::string& sensor, const ScanReceipt& receipt) {

@@ -39,7 +39,8 @@ void IngestSession::read() {
 }
 
 void IngestSession::on_read(const std::error_code& error, std::size_t count) {
-  if (state_ == State::kFinishing || state_ == State::kClosed) return;
+  if (state_ == State::kAnswering || state_ == State::kFinishing || state_ == State::kClosed)
+    return;
   if (!error) take(count);
   if (state_ == State::kDraining && !paused_) return drain_now();
   if (error) return on_end_of_stream();
@@ -52,6 +53,7 @@ void IngestSession::take(std::size_t count) {
   if (*message) {
     deadline_set_ = false;
     deadline_.cancel();
+    ++owed_replies_;
     owner_.on_message(*this, std::move(**message));
   } else {
     watch_message();
@@ -86,7 +88,14 @@ void IngestSession::on_end_of_stream() {
   if (decoder_.is_within_message()) {
     owner_.on_refused(*this, {Refusal::kTruncated, "the connection ended within a message"});
   }
-  close();
+  // It may have closed its side for writing only, and wait for receipts.
+  state_ = State::kAnswering;
+  close_if_answered();
+}
+
+void IngestSession::close_if_answered() {
+  const bool all_sent = owed_replies_ == 0 && !writing_ && unsent_.empty();
+  if (state_ == State::kAnswering && (all_sent || deaf_)) close();
 }
 
 void IngestSession::refuse(const Refused& refused) {
@@ -131,9 +140,14 @@ void IngestSession::drain_now() {
 
 void IngestSession::send(const std::string& frame) {
   if (state_ == State::kFinishing || state_ == State::kClosed) return;
-  if (unsent_.size() + frame.size() > kMaxUnsentBytes) return owner_.on_reply_dropped();
-  unsent_.append(frame);
-  write();
+  --owed_replies_;
+  if (deaf_ || unsent_.size() + frame.size() > kMaxUnsentBytes) {
+    owner_.on_reply_dropped();
+  } else {
+    unsent_.append(frame);
+    write();
+  }
+  close_if_answered();
 }
 
 void IngestSession::write() {
@@ -141,15 +155,22 @@ void IngestSession::write() {
   writing_ = true;
   sending_.swap(unsent_);
   unsent_.clear();
-  asio::async_write(socket_, asio::buffer(sending_),
-                    [self = shared_from_this()](std::error_code error, std::size_t) {
-                      self->writing_ = false;
-                      self->sending_.clear();
-                      const bool is_done =
-                          self->state_ == State::kFinishing && self->unsent_.empty();
-                      if (error || is_done) return self->close();
-                      self->write();
-                    });
+  asio::async_write(
+      socket_, asio::buffer(sending_),
+      [self = shared_from_this()](std::error_code error, std::size_t) { self->on_written(error); });
+}
+
+// A client that has closed may have left scans in the socket's buffer: they are read to the end.
+void IngestSession::on_written(const std::error_code& error) {
+  writing_ = false;
+  sending_.clear();
+  if (error) {
+    deaf_ = true;
+    unsent_.clear();
+  }
+  if (state_ == State::kFinishing && unsent_.empty()) return close();
+  write();
+  close_if_answered();
 }
 
 void IngestSession::finish() {

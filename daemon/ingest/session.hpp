@@ -55,13 +55,16 @@ class IngestSession : public std::enable_shared_from_this<IngestSession> {
   void finish();
 
  private:
-  enum class State { kOpen, kDraining, kDrained, kFinishing, kClosed };
+  // Answering: the client sends no more, but replies are still owed to it.
+  enum class State { kOpen, kAnswering, kDraining, kDrained, kFinishing, kClosed };
 
   void read();
   void on_read(const std::error_code& error, std::size_t count);
   void take(std::size_t count);
   void drain_now();
   void write();
+  void on_written(const std::error_code& error);
+  void close_if_answered();
   void on_end_of_stream();
   void watch_message();
   void set_deadline(std::chrono::duration<double> time);
@@ -81,6 +84,8 @@ class IngestSession : public std::enable_shared_from_this<IngestSession> {
   bool deadline_set_ = false;
   std::size_t drained_bytes_ = 0;
   bool writing_ = false;
+  bool deaf_ = false;              // a write has failed: nobody reads replies any more
+  std::int64_t owed_replies_ = 0;  // every message is answered by one
   std::string unsent_;
   std::string sending_;
 };

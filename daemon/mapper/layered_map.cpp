@@ -3,14 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace warren {
 namespace {
-
-std::uint64_t sum(const RejectionCounts& counts) {
-  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-}
 
 std::optional<Eigen::Vector3d> sensor_position_map(const Scan& scan) {
   const auto T_map_base = scan.T_map_base.checked();
@@ -56,7 +51,7 @@ tl::unexpected<std::string> LayeredMap::reject(Rejection reason) {
 
 tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::uint64_t frame_epoch,
                                                                const SensorFilter& filter) {
-  if (!normalise_gravity(scan)) return tl::unexpected(std::string("gravity_map is no direction"));
+  if (!normalise_gravity(scan)) return reject(Rejection::kBadGravity);
   const auto layer = layer_for(scan, frame_epoch);
   if (!layer) return tl::unexpected(layer.error());
   Layer& into = **layer;
@@ -65,13 +60,12 @@ tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::u
   const auto prepared =
       preparer_.prepare(scan, filter, into.origin, config_.resolution_m, rejected);
   if (!prepared) return reject(Rejection::kOriginOutsideKeySpace);
-  const std::uint64_t prepared_points = prepared->points_layer.size();
   const IntegrationReport report = into.voxels.integrate(*prepared);
   ++into.scans;
 
   for (std::size_t i = 0; i < kRejectionCount; ++i)
     rejected_[i] += rejected[i] + report.rejected[i];
-  return prepared_points - std::min(prepared_points, sum(report.rejected));
+  return report.points_used;
 }
 
 tl::expected<Layer*, std::string> LayeredMap::layer_for(const Scan& scan,
@@ -81,7 +75,7 @@ tl::expected<Layer*, std::string> LayeredMap::layer_for(const Scan& scan,
   });
   if (found == layers_.end()) return open_layer(scan, frame_epoch);
   if (found->get() != layers_.back().get()) {
-    return tl::unexpected(std::string("frame_epoch is over: a later one has begun"));
+    return reject(Rejection::kFrameEpochOver);
   }
   if (!sensor_position_map(scan)) return reject(Rejection::kBadPose);
   return found->get();
@@ -94,7 +88,7 @@ tl::expected<Layer*, std::string> LayeredMap::open_layer(const Scan& scan,
   const auto origin = LayerOrigin::snapped(*position, config_.resolution_m);
   if (!origin) return reject(Rejection::kOriginOutsideKeySpace);
   if (layers_.size() >= kMaxLayers) {
-    return tl::unexpected(std::string("too many frame epochs: restart warrend"));
+    return reject(Rejection::kTooManyFrameEpochs);
   }
   // A copy leaves the scratch memory of integration behind: frozen layers need none.
   if (!layers_.empty()) layers_.back()->voxels = SelfMap(layers_.back()->voxels);

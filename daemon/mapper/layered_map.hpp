@@ -62,6 +62,8 @@ class LayeredMap {
   const Layer* current() const { return layers_.empty() ? nullptr : layers_.back().get(); }
   std::size_t layer_count() const { return layers_.size(); }
   const RejectionCounts& rejected() const { return rejected_; }
+  // Counts a scan that is not integrated; gives the reason's name.
+  tl::unexpected<std::string> reject(Rejection reason);
   MapInfoReport info() const;
   // A copy of the current layer; nothing before the first scan.
   std::shared_ptr<const MapSnapshot> snapshot() const;
@@ -69,7 +71,6 @@ class LayeredMap {
  private:
   tl::expected<Layer*, std::string> layer_for(const Scan& scan, std::uint64_t frame_epoch);
   tl::expected<Layer*, std::string> open_layer(const Scan& scan, std::uint64_t frame_epoch);
-  tl::unexpected<std::string> reject(Rejection reason);
 
   SelfMapConfig config_;
   std::vector<std::unique_ptr<Layer>> layers_;  // the last is the current one

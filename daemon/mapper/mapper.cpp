@@ -2,7 +2,6 @@
 #include "daemon/mapper/mapper.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <ctime>
 #include <utility>
 
@@ -36,29 +35,37 @@ std::vector<QueuedScan> Mapper::push(QueuedScan scan) {
   return queue_.push(std::move(scan));
 }
 
-void Mapper::update_pose(const PoseUpdateMessage& update,
+bool Mapper::update_pose(const PoseUpdateMessage& update,
                          std::function<void(bool applied)> answer) {
   const std::lock_guard lock(mutex_);
-  assert(commands_.size() < kMaxCommands);
-  commands_.push_back({queue_.entered(), [this, update, answer = std::move(answer)] {
-                         answer(map_.update_pose(update));
-                       }});
+  if (pose_orders_.size() >= kMaxCommands) return false;
+  pose_orders_.push_back({queue_.entered(), [this, update, answer = std::move(answer)] {
+                            answer(map_.update_pose(update));
+                          }});
   work_.notify_one();
+  return true;
+}
+
+bool Mapper::ask_status(std::function<void(MapperStatus)> answer) {
+  return ask([this, answer = std::move(answer)] { answer(status()); });
+}
+
+bool Mapper::ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer) {
+  return ask([this, answer = std::move(answer)] { answer(map_.snapshot()); });
+}
+
+bool Mapper::ask(std::function<void()> question) {
+  const std::lock_guard lock(mutex_);
+  if (questions_.size() >= kMaxCommands) return false;
+  questions_.push_back(std::move(question));
+  work_.notify_one();
+  return true;
 }
 
 void Mapper::post(std::function<void()> run) {
   const std::lock_guard lock(mutex_);
-  assert(commands_.size() < kMaxCommands);
-  commands_.push_back({0, std::move(run)});
+  questions_.push_back(std::move(run));
   work_.notify_one();
-}
-
-void Mapper::ask_status(std::function<void(MapperStatus)> answer) {
-  post([this, answer = std::move(answer)] { answer(status()); });
-}
-
-void Mapper::ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer) {
-  post([this, answer = std::move(answer)] { answer(map_.snapshot()); });
 }
 
 void Mapper::set_filters(SensorFilters filters) {
@@ -92,7 +99,21 @@ void Mapper::finish(std::function<void()> done) {
 }
 
 bool Mapper::command_is_due() const {
-  return !commands_.empty() && commands_.front().after_scans <= queue_.left();
+  return !questions_.empty() ||
+         (!pose_orders_.empty() && pose_orders_.front().after_scans <= queue_.left());
+}
+
+std::function<void()> Mapper::take_command() {
+  if (!command_is_due()) return nullptr;
+  std::function<void()> command;
+  if (!questions_.empty()) {
+    command = std::move(questions_.front());
+    questions_.pop_front();
+  } else {
+    command = std::move(pose_orders_.front().run);
+    pose_orders_.pop_front();
+  }
+  return command;
 }
 
 bool Mapper::wait_for_work(std::unique_lock<std::mutex>& lock) {
@@ -103,11 +124,9 @@ bool Mapper::wait_for_work(std::unique_lock<std::mutex>& lock) {
 void Mapper::run() {
   std::unique_lock lock(mutex_);
   while (wait_for_work(lock)) {
-    if (command_is_due()) {
-      const Command command = std::move(commands_.front());
-      commands_.pop_front();
+    if (const auto run_command = take_command()) {
       lock.unlock();
-      command.run();
+      run_command();
     } else {
       auto scan = queue_.pop();
       lock.unlock();
@@ -137,7 +156,8 @@ void Mapper::count_cpu(double cpu_ms) {
 ScanReceipt Mapper::receipt_of(ScanMessage& message) {
   const auto filter = filters_.find(message.sensor);
   if (filter == filters_.end()) {
-    return {message.sequence, ScanOutcome::kRejected, "the sensor is no longer in the config", 0};
+    return {message.sequence, ScanOutcome::kRejected,
+            map_.reject(Rejection::kSensorRemoved).value(), 0};
   }
   const auto used = map_.integrate(std::move(message.scan), message.frame_epoch, filter->second);
   if (!used) return {message.sequence, ScanOutcome::kRejected, used.error(), 0};

@@ -34,7 +34,8 @@ struct MapperStatus {
 // Every member function may be called from any thread.
 class Mapper {
  public:
-  // Every client waits for its answer before it asks again, so their limits keep us below this.
+  // Clients' questions and orders that may wait; one more is refused. A client waits for its answer
+  // before it asks again, but one that goes and comes back leaves its question behind.
   static constexpr std::size_t kMaxCommands = 1024;
 
   struct Dependencies {
@@ -53,11 +54,13 @@ class Mapper {
   // Those that were dropped to make room.
   std::vector<QueuedScan> push(QueuedScan scan);
   // Answered after all scans pushed before it: a client sees its messages take effect in order.
-  void update_pose(const PoseUpdateMessage& update, std::function<void(bool applied)> answer);
+  // False: refused, too many commands wait; there will be no answer.
+  [[nodiscard]] bool update_pose(const PoseUpdateMessage& update,
+                                 std::function<void(bool applied)> answer);
 
-  // These come before the scans that wait.
-  void ask_status(std::function<void(MapperStatus)> answer);
-  void ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer);
+  // These come before the scans that wait. False as above.
+  [[nodiscard]] bool ask_status(std::function<void(MapperStatus)> answer);
+  [[nodiscard]] bool ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer);
   void set_filters(SensorFilters filters);
   void set_queue_capacity(std::size_t scans);
 
@@ -75,7 +78,7 @@ class Mapper {
   void finish(std::function<void()> done);
 
  private:
-  struct Command {
+  struct PoseOrder {
     std::uint64_t after_scans = 0;  // runs once so many scans have left the queue
     std::function<void()> run;
   };
@@ -83,8 +86,11 @@ class Mapper {
   void run();
   // Waits for work; false when there is none and none will come.
   bool wait_for_work(std::unique_lock<std::mutex>& lock);
+  // The next question or due order, taken off its queue; nothing when none is due.
+  std::function<void()> take_command();
   bool command_is_due() const;
-  void post(std::function<void()> run);
+  [[nodiscard]] bool ask(std::function<void()> question);
+  void post(std::function<void()> run);  // the daemon's own few: never refused
   void integrate(QueuedScan& scan);
   ScanReceipt receipt_of(ScanMessage& message);
   void count_cpu(double cpu_ms);
@@ -92,10 +98,11 @@ class Mapper {
 
   Dependencies dependencies_;
 
-  mutable std::mutex mutex_;  // guards these four
+  mutable std::mutex mutex_;  // guards what follows, up to finishing_
   std::condition_variable work_;
   ScanQueue queue_;
-  std::deque<Command> commands_;
+  std::deque<std::function<void()>> questions_;  // always due
+  std::deque<PoseOrder> pose_orders_;
   std::function<void()> finished_;
   bool finishing_ = false;
 

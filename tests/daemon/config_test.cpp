@@ -159,8 +159,20 @@ TEST_CASE("text that is no YAML is one fault with its line") {
   const ConfigFaults faults = faults_of("node:\n  name: [\n");
   REQUIRE(faults.size() == 1);
   CHECK(faults.front().rfind("robot.yaml:", 0) == 0);
-  CHECK(faults_of("a: 1\n---\nb: 2\n") == ConfigFaults{"robot.yaml: more than one YAML document"});
+  check_fault("a: 1\n---\nb: 2\n", "robot.yaml:2: more than one YAML document");
   CHECK(faults_of(std::string(kMaxConfigBytes + 1, ' ')).size() == 1);
+}
+
+TEST_CASE("a stray comma, at which yaml-cpp finds documents without end, is one fault") {
+  check_fault(",", "robot.yaml:1: this is no YAML");
+  check_fault("# comment\n%YAML 1.2\n,\n", "robot.yaml:3: this is no YAML");
+  check_fault("---\n,", "robot.yaml:2: more than one YAML document");
+}
+
+TEST_CASE("control characters of keys and values do not reach the operator's terminal") {
+  check_fault("node:\n  role: \"a\\nb\"\n",
+              "robot.yaml:2: node.role: 'a?b' is none of these; allowed: robot");
+  check_fault("\"\\e[2J\": 1\n", "robot.yaml:1: ?[2J: unknown key");
 }
 
 TEST_CASE("a file that is not there is a fault") {

@@ -3,6 +3,8 @@
 # The real programs over real sockets. Usage: end_to_end.sh BIN_DIR SOURCE_DIR CASE
 set -euo pipefail
 bin=$1 source=$2 case=$3
+# Debian's own: another in the PATH lacks Debian's python3-protobuf.
+python=/usr/bin/python3
 work=$(mktemp -d)
 daemon=
 clean_up() {
@@ -56,10 +58,10 @@ replay() {
 }
 
 field() { # NAME < JSON
-  python3 -c 'import json,sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"
+  "$python" -c 'import json,sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"
 }
 status() { "$bin/warrenctl" --socket "$work/control.sock" status --json >"$work/status.json"; }
-mapped() { python3 -c 'import json,sys; m=json.load(open(sys.argv[1]))["map"]; print(m[sys.argv[2]])' "$work/status.json" "$1"; }
+mapped() { "$python" -c 'import json,sys; m=json.load(open(sys.argv[1]))["map"]; print(m[sys.argv[2]])' "$work/status.json" "$1"; }
 
 case_replays_a_recording_without_a_drop() {
   scene 30
@@ -122,10 +124,10 @@ case_says_what_is_wrong_when_no_daemon_runs() {
 }
 
 case_the_python_client_is_taken() {
-  python3 -c 'import google.protobuf' 2>/dev/null || { echo "SKIPPED: no python3-protobuf"; exit 0; }
+  "$python" -c 'import google.protobuf' 2>/dev/null || { echo "SKIPPED: no python3-protobuf"; exit 0; }
   start_daemon
   protoc -I "$source/proto/warren" --python_out="$work" ingest.proto
-  PYTHONPATH=$work python3 "$source/tools/python/warren_ingest.py" "$work/ingest.sock" lidar ||
+  PYTHONPATH=$work "$python" "$source/tools/python/warren_ingest.py" "$work/ingest.sock" lidar ||
     fail "the Python client failed"
   stop_daemon
 }

@@ -6,6 +6,7 @@ Usage: warren_ingest.py SOCKET SENSOR"""
 import socket
 import struct
 import sys
+import time
 
 import ingest_pb2 as pb
 
@@ -25,7 +26,8 @@ sock.connect(sys.argv[1])
 send(sock, pb.IngestRequest(hello=pb.Hello(protocol_version=1, client="python")))
 print("welcome:", receive(sock).welcome)
 points = [(2.0, -1.0 + 0.02 * i, 0.0) for i in range(100)]  # a wall, seen from the origin
-scan = pb.ScanHeader(sequence=1, sensor=sys.argv[2], frame_epoch=1, stamp_ns=1, points=len(points))
+now_ns = time.time_ns()  # odometry starts now: a frame epoch never used before
+scan = pb.ScanHeader(sequence=1, sensor=sys.argv[2], frame_epoch=now_ns, stamp_ns=now_ns, points=len(points))
 scan.t_map_base.qw = 1.0
 send(sock, pb.IngestRequest(scan=scan), b"".join(struct.pack("<3f", *p) for p in points))
 receipt = receive(sock).receipt

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <set>
+
+#include <doctest/doctest.h>
+#include <png.h>
+
+#include "core/exchange/image.hpp"
+#include "core/exchange/map_relief.hpp"
+#include "core/exchange/map_writer.hpp"
+#include "tests/core/exchange/temporary_folder.hpp"
+#include "tests/support/simulated_scans.hpp"
+
+using namespace warren;
+using namespace warren::test;
+
+namespace {
+
+struct Picture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  std::size_t colours() const {
+    std::set<std::uint32_t> seen;
+    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+      seen.insert(static_cast<std::uint32_t>(rgb[i] << 16 | rgb[i + 1] << 8 | rgb[i + 2]));
+    }
+    return seen.size();
+  }
+};
+
+Picture read_png(const std::filesystem::path& file) {
+  png_image header;
+  std::memset(&header, 0, sizeof header);
+  header.version = PNG_IMAGE_VERSION;
+  REQUIRE(png_image_begin_read_from_file(&header, file.c_str()) != 0);
+  header.format = PNG_FORMAT_RGB;
+  Picture picture{header.width, header.height, {}};
+  picture.rgb.resize(PNG_IMAGE_SIZE(header));
+  REQUIRE(png_image_finish_read(&header, nullptr, picture.rgb.data(), 0, nullptr) != 0);
+  return picture;
+}
+
+SelfMap room_map(double resolution_m) {
+  SelfMap map({resolution_m, SensorModel{}, false});
+  for (const auto& scan : walk_through_room(Room{}, Lidar{}, 5)) map.integrate(scan.view());
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("a map becomes a picture, the same each time") {
+  const TemporaryFolder folder;
+  const MapSnapshot map{LayerOrigin{}, room_map(0.1)};
+  REQUIRE(save_map(map, folder / "a.png"));
+  REQUIRE(save_map(map, folder / "b.png"));
+  CHECK(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
+  const Picture picture = read_png(folder / "a.png");
+  CHECK(picture.width == 1600);
+  CHECK(picture.height == 900);
+  CHECK(picture.colours() > 500);
+}
+
+TEST_CASE("the ceiling is left out, floor and walls are not") {
+  const double resolution_m = 0.1;
+  const SelfMap map = room_map(resolution_m);
+  const MapRelief relief(map, *map.bounds());
+  // The room is 3 m high around z = 0, the floor at -1.5 m.
+  CHECK(relief.is_shown(*map.lattice().key_of(1.0, 1.0, -1.5)));
+  CHECK(relief.is_shown(*map.lattice().key_of(6.0, 1.0, 0.0)));
+  CHECK_FALSE(relief.is_shown(*map.lattice().key_of(1.0, 1.0, 1.5)));
+  REQUIRE(relief.extent());
+  CHECK(relief.extent()->high.z < map.lattice().key_of(0.0, 0.0, 1.0)->z);
+}
+
+TEST_CASE("a map as wide as the key space takes a bounded raster") {
+  const TemporaryFolder folder;
+  MapSnapshot map{LayerOrigin{}, SelfMap({0.1, SensorModel{}, false})};
+  for (const Point3f& corner :
+       {Point3f{-3276.7F, -3276.7F, -3276.7F}, Point3f{3276.6F, 3276.6F, 3276.6F}}) {
+    const std::vector<Point3f> points = {corner};
+    map.voxels.integrate({corner, points, std::nullopt, {}});
+  }
+  REQUIRE(map.voxels.counts().occupied == 2);
+  CHECK(save_map(map, folder / "a.png"));
+}
+
+TEST_CASE("drawing outside of an image is cut off") {
+  Image image(20, 10, Colour{1, 2, 3});
+  image.fill({-5, -5, 8, 8}, Colour{9, 9, 9});
+  image.draw_text(15, 5, "0123", Colour{255, 255, 255});
+  image.draw_text(-400, -3, "abc\x80\xff", Colour{255, 255, 255});
+  CHECK(image.at(2, 2).red == 9);
+  CHECK(image.at(3, 3).red == 1);
+}
