@@ -14,8 +14,11 @@ struct SensorModel {
   double maximum = 0.971;
 
   static SensorModel octomap_default() { return {}; }
-  // The team's field parameters (FACTS: sticky, keeps thin things).
+  // Parameters flown in the field: sticky, keeps thin things.
   static SensorModel field() { return {0.95, 0.48, 0.12, 0.97}; }
+
+  // Ours, chosen by the table of `warren-bench map-quality` (docs/BENCHMARKS.md).
+  static SensorModel ours() { return {0.85, 0.46, 0.12, 0.97}; }
 
   bool is_valid() const;
   friend bool operator==(const SensorModel&, const SensorModel&) = default;

@@ -48,12 +48,18 @@ stop_daemon() {
   daemon=
 }
 
-scene() { # SCANS
-  "$bin/warren-scene" --seed 3 --scans "$1" --rings 16 --columns 128 --out "$work/scene"
+simulate() { # SUBCOMMAND SWEEPS [ARG..]
+  local subcommand=$1 sweeps=$2
+  "$bin/warren-sim" "$subcommand" --world room --seed 3 --seconds "$((sweeps / 10)).$((sweeps % 10))5" \
+    --columns 128 "${@:3}"
+}
+
+scene() { # SWEEPS
+  simulate record "$1" --out "$work/scene" --drivability-spacing 0 2>/dev/null
 }
 
 replay() {
-  "$bin/warren-replay" --clouds "$work/scene/clouds" --poses "$work/scene/poses.txt" \
+  "$bin/warren-replay" --clouds "$work/scene/robot-0/clouds" --poses "$work/scene/robot-0/poses.txt" \
     --socket "$work/ingest.sock" --json "$@" 2>"$work/replay.err"
 }
 
@@ -103,7 +109,8 @@ case_survives_a_replayer_that_is_killed() {
 
 case_drops_the_oldest_when_flooded_and_says_so() {
   # A scan takes many milliseconds to integrate, and one comes every millisecond.
-  "$bin/warren-scene" --seed 3 --scans 16 --rings 64 --columns 512 --out "$work/scene"
+  "$bin/warren-sim" record --world cave --length 60 --seconds 1.65 --out "$work/scene" \
+    --drivability-spacing 0 2>/dev/null
   start_daemon 1
   replay --rate 1000 >"$work/summary.json" || true
   local answered=0
@@ -132,13 +139,40 @@ case_the_python_client_is_taken() {
   stop_daemon
 }
 
-case_a_scene_has_the_same_bytes_every_time() {
-  scene 3
-  mv "$work/scene" "$work/first"
-  scene 3
-  diff -r "$work/first" "$work/scene" || fail "two runs differ"
-  "$bin/warren-scene" --seed 4 --scans 3 --rings 16 --columns 128 --out "$work/other"
+case_a_recording_has_the_same_bytes_every_time() {
+  local team=(--world cave --length 60 --robots 2 --people 1 --stagger 1 --columns 64 --seconds 2)
+  for run in first second; do
+    "$bin/warren-sim" record "${team[@]}" --seed 3 --out "$work/$run" 2>/dev/null
+  done
+  [ "$(ls "$work/first/robot-1/clouds" | wc -l)" = 10 ] || fail "robot-1 has not 10 sweeps"
+  [ -s "$work/first/truth/mesh.ply" ] || fail "no truth"
+  diff -r "$work/first" "$work/second" || fail "two runs differ"
+  "$bin/warren-sim" record "${team[@]}" --seed 4 --out "$work/other" 2>/dev/null
   if diff -rq "$work/first" "$work/other" >/dev/null; then fail "two seeds agree"; fi
+}
+
+case_robots_measure_live_into_the_daemon() {
+  start_daemon
+  simulate run 12 --rate max --socket "$work/ingest.sock" --json >"$work/summary.json" 2>/dev/null ||
+    fail "$(cat "$work/summary.json")"
+  [ "$(field taken <"$work/summary.json")" = 12 ] || fail "$(cat "$work/summary.json")"
+  status
+  [ "$(mapped voxels_occupied)" -gt 1000 ] || fail "$(cat "$work/status.json")"
+  if simulate run 1 --robots 2 --socket "$work/ingest.sock" >/dev/null 2>"$work/err"; then
+    fail "two robots took one socket"
+  fi
+  grep -q "one --socket per robot" "$work/err" || fail "$(cat "$work/err")"
+  stop_daemon
+}
+
+case_a_world_is_drawn_and_its_radio_told() {
+  "$bin/warren-sim" render --world room --out "$work/pictures" 2>/dev/null
+  for picture in outside cutaway plan robot; do
+    [ "$(stat -c %s "$work/pictures/$picture.png")" -gt 20000 ] || fail "$picture.png is empty"
+  done
+  "$bin/warren-sim" radio --world tunnel --robots 2 --seconds 20 --out "$work/radio" 2>/dev/null
+  head -n 1 "$work/radio/radio.csv" | grep -q '^time_s,from,to,loss,rate_bit_s$' || fail "no header"
+  grep -q ',base,robot-1,' "$work/radio/radio.csv" || fail "the base hears no robot"
 }
 
 "case_$case"

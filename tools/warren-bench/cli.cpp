@@ -17,6 +17,11 @@ struct RawIntegrate {
   std::size_t most_scans = 0;
 };
 
+struct RawMapQuality {
+  MapQualityCommand command;
+  std::vector<double> custom;  // hit, miss, minimum, maximum
+};
+
 void add_options(CLI::App& app, RawIntegrate& raw) {
   app.add_option("--clouds", raw.clouds, "directory of clouds, or one")->required();
   app.add_option("--poses", raw.poses, "pose file (none: identity)");
@@ -41,33 +46,73 @@ void add_options(CLI::App& app, RawIntegrate& raw) {
   app.add_flag("--json", raw.json, "one JSON object instead of text");
 }
 
-IntegrateArguments resolve(const RawIntegrate& raw) {
-  IntegrateArguments arguments;
-  arguments.source.clouds = raw.clouds;
-  if (!raw.poses.empty()) arguments.source.poses = raw.poses;
-  arguments.source.poses_format = *pose_format_of(raw.poses_format);
-  arguments.source.most_scans = raw.most_scans;
-  arguments.options = raw.options;
-  if (raw.sensor_model == "field") arguments.options.map.sensor_model = SensorModel::field();
-  if (raw.max_range_m > 0.0) arguments.max_range_m = raw.max_range_m;
-  arguments.json = raw.json;
-  return arguments;
+void add_options(CLI::App& app, RawMapQuality& raw) {
+  MapQualityOptions& options = raw.command.options;
+  app.add_option("--worlds", options.worlds, "presets")->delimiter(',')->capture_default_str();
+  app.add_option("--resolutions", options.resolutions_m, "edges of a voxel, m")
+      ->delimiter(',')
+      ->check(CLI::Range(0.02, 1.0))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--seconds", options.duration_s, "that the robot explores")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  app.add_option("--max-range", options.max_range_m, "m")
+      ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--custom", raw.custom,
+                 "one more sensor model: HIT,MISS,MINIMUM,MAXIMUM as probabilities")
+      ->delimiter(',')
+      ->expected(4);
+  app.add_flag("--json", raw.command.json, "one JSON object instead of text");
+}
+
+IntegrateCommand resolve(const RawIntegrate& raw) {
+  IntegrateCommand command;
+  command.source.clouds = raw.clouds;
+  if (!raw.poses.empty()) command.source.poses = raw.poses;
+  command.source.poses_format = *pose_format_of(raw.poses_format);
+  command.source.most_scans = raw.most_scans;
+  command.options = raw.options;
+  command.options.map.sensor_model =
+      raw.sensor_model == "field" ? SensorModel::field() : SensorModel::octomap_default();
+  if (raw.max_range_m > 0.0) command.max_range_m = raw.max_range_m;
+  command.json = raw.json;
+  return command;
+}
+
+MapQualityCommand resolve(const RawMapQuality& raw) {
+  MapQualityCommand command = raw.command;
+  command.options.models = {{"default", SensorModel::octomap_default()},
+                            {"field", SensorModel::field()},
+                            {"ours", SensorModel::ours()}};
+  if (!raw.custom.empty()) {
+    command.options.models.push_back(
+        {"custom", {raw.custom[0], raw.custom[1], raw.custom[2], raw.custom[3]}});
+  }
+  return command;
 }
 
 }  // namespace
 
-CommandLine parse_command_line(int argc, char** argv) {
+Command parse_command_line(int argc, char** argv) {
   CLI::App app("Warren's benchmarks: ours beside the named peer, same run, same input");
   app.require_subcommand(1);
-  RawIntegrate raw;
-  CLI::App* const integrate = app.add_subcommand("integrate", "scans into a map, beside OctoMap");
-  add_options(*integrate, raw);
+  RawIntegrate integrate;
+  RawMapQuality map_quality;
+  CLI::App* const integrate_app =
+      app.add_subcommand("integrate", "scans into a map, beside OctoMap");
+  CLI::App* const map_quality_app =
+      app.add_subcommand("map-quality", "maps of simulated worlds against the truth");
+  add_options(*integrate_app, integrate);
+  add_options(*map_quality_app, map_quality);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? 0 : 2};
+    return ExitCommand{app.exit(error) == 0 ? 0 : 2};
   }
-  return {resolve(raw), 0};
+  if (map_quality_app->parsed()) return resolve(map_quality);
+  return resolve(integrate);
 }
 
 }  // namespace warren

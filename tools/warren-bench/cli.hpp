@@ -2,24 +2,28 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
 #include "tools/warren-bench/integrate.hpp"
+#include "tools/warren-bench/map_quality.hpp"
 
 namespace warren {
 
-struct IntegrateArguments {
+struct IntegrateCommand {
   SequenceSource source;
   IntegrateOptions options;
   std::optional<double> max_range_m;
   bool json = false;
 };
-
-// The benchmark asked for; none when help was printed (exit code 0) or the line was wrong (2).
-struct CommandLine {
-  std::optional<IntegrateArguments> integrate;
-  int exit_code = 0;
+struct MapQualityCommand {
+  MapQualityOptions options;
+  bool json = false;
+};
+struct ExitCommand {  // help was printed (0), or the line was wrong (2)
+  int code = 0;
 };
 
-CommandLine parse_command_line(int argc, char** argv);
+using Command = std::variant<IntegrateCommand, MapQualityCommand, ExitCommand>;
+Command parse_command_line(int argc, char** argv);
 
 }  // namespace warren

@@ -2,29 +2,45 @@
 #include <cstdio>
 
 #include "tools/warren-bench/cli.hpp"
-#include "tools/warren-bench/integrate.hpp"
 
 namespace {
 
-int run_integrate(const warren::IntegrateArguments& arguments) {
-  const auto sequence = warren::load_sequence(arguments.source, arguments.options.map.resolution_m,
-                                              arguments.max_range_m);
-  if (!sequence) {
-    std::fprintf(stderr, "warren-bench: %s\n", sequence.error().c_str());
-    return 2;
-  }
-  const auto result = warren::bench_integrate(*sequence, arguments.options);
-  const std::string text = arguments.json
-                               ? to_json(result, arguments.options, arguments.max_range_m) + "\n"
-                               : to_text(result);
+using namespace warren;
+
+int fail(const std::string& why) {
+  std::fprintf(stderr, "warren-bench: %s\n", why.c_str());
+  return 2;
+}
+
+int execute(const IntegrateCommand& command) {
+  const auto sequence =
+      load_sequence(command.source, command.options.map.resolution_m, command.max_range_m);
+  if (!sequence) return fail(sequence.error());
+  const auto result = bench_integrate(*sequence, command.options);
+  const std::string text =
+      command.json ? to_json(result, command.options, command.max_range_m) + "\n" : to_text(result);
   std::fputs(text.c_str(), stdout);
   return 0;
 }
 
+int execute(const MapQualityCommand& command) {
+  for (const NamedModel& model : command.options.models) {
+    if (!model.model.is_valid())
+      return fail("no sensor model: 0 < minimum, miss < 0.5 < hit, maximum < 1");
+  }
+  const auto results = bench_map_quality(command.options);
+  if (!results) return fail(results.error());
+  const std::string text =
+      command.json ? to_json(*results, command.options) + "\n" : to_text(*results);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+int execute(const ExitCommand& command) { return command.code; }
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const warren::CommandLine line = warren::parse_command_line(argc, argv);
-  if (!line.integrate) return line.exit_code;
-  return run_integrate(*line.integrate);
+  return std::visit([](const auto& command) { return execute(command); },
+                    parse_command_line(argc, argv));
 }

@@ -6,6 +6,7 @@
 #include "core/exchange/cloud_reader.hpp"
 #include "tools/warren-replay/cli.hpp"
 #include "tools/warren-replay/progress.hpp"
+#include "tools/warren-replay/scan_reader.hpp"
 
 namespace {
 

@@ -13,10 +13,10 @@ constexpr std::chrono::milliseconds kPiece{50};
 
 }  // namespace
 
-Replay::Replay(IngestClient& client, ScanReader& reader, ReplayOptions options, Progress progress,
+Replay::Replay(IngestClient& client, ScanSource& source, ReplayOptions options, Progress progress,
                const std::atomic<bool>& stop)
     : client_(client),
-      reader_(reader),
+      source_(source),
       options_(std::move(options)),
       progress_(std::move(progress)),
       stop_(stop) {}
@@ -24,7 +24,7 @@ Replay::Replay(IngestClient& client, ScanReader& reader, ReplayOptions options, 
 ReplaySummary Replay::run() {
   start_ = Clock::now();
   summary_ = {};
-  summary_.scans = reader_.count();
+  summary_.scans = source_.count();
   while (going_on() && send_next()) await_turn();
   const auto deadline = Clock::now() + options_.patience;
   while (going_on() && summary_.answered() < summary_.sent && Clock::now() < deadline) {
@@ -38,7 +38,7 @@ ReplaySummary Replay::run() {
 }
 
 bool Replay::send_next() {
-  auto recorded = reader_.next();
+  auto recorded = source_.next();
   if (!recorded) {
     summary_.error = recorded.error();
     return false;
@@ -106,7 +106,7 @@ void Replay::count(const Receipt& receipt) {
 }
 
 // The pose's own time where there is one; otherwise the rate's, for the daemon orders scans by it.
-std::int64_t Replay::stamp_ns(const RecordedScan& scan) const {
+std::int64_t Replay::stamp_ns(const TimedScan& scan) const {
   const double rate_hz = options_.rate_hz.value_or(kDefaultRateHz);
   const double time_s = scan.time_s.value_or(static_cast<double>(summary_.sent + 1) / rate_hz);
   return static_cast<std::int64_t>(time_s * 1e9);

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tools/client/ingest_client.hpp"
-#include "tools/warren-replay/scan_reader.hpp"
+#include "tools/warren-replay/scan_source.hpp"
 
 namespace warren {
 
@@ -23,7 +23,7 @@ struct ReplayOptions {
 };
 
 struct ReplaySummary {
-  std::uint64_t scans = 0;  // in the recording
+  std::uint64_t scans = 0;  // in all
   std::uint64_t sent = 0;
   std::uint64_t taken = 0;
   std::uint64_t dropped_overload = 0;
@@ -40,13 +40,13 @@ struct ReplaySummary {
   bool complete() const { return error.empty() && sent == scans && answered() == sent; }
 };
 
-// Sends a recording to a daemon. Calls progress after every scan sent and every receipt. Ends
+// Sends scans to a daemon. Calls progress after every scan sent and every receipt. Ends
 // early, with what it has, when `stop` becomes true.
 class Replay {
  public:
   using Progress = std::function<void(const ReplaySummary&)>;
 
-  Replay(IngestClient& client, ScanReader& reader, ReplayOptions options, Progress progress,
+  Replay(IngestClient& client, ScanSource& source, ReplayOptions options, Progress progress,
          const std::atomic<bool>& stop);
   ReplaySummary run();
 
@@ -58,10 +58,10 @@ class Replay {
   void collect(std::chrono::milliseconds timeout);
   void count(const Receipt& receipt);
   bool going_on() const { return summary_.error.empty() && !stop_; }
-  std::int64_t stamp_ns(const RecordedScan& scan) const;
+  std::int64_t stamp_ns(const TimedScan& scan) const;
 
   IngestClient& client_;
-  ScanReader& reader_;
+  ScanSource& source_;
   ReplayOptions options_;
   Progress progress_;
   const std::atomic<bool>& stop_;

@@ -19,7 +19,7 @@ ScanReader::ScanReader(std::vector<std::filesystem::path> files, std::vector<Tim
 
 ScanReader::~ScanReader() = default;
 
-tl::expected<std::optional<RecordedScan>, std::string> ScanReader::next() {
+tl::expected<std::optional<TimedScan>, std::string> ScanReader::next() {
   if (handed_out_ == files_.size()) return std::nullopt;
   ++handed_out_;
   std::unique_lock lock(mutex_);
@@ -45,7 +45,7 @@ void ScanReader::read_all(const std::stop_token& stop) {
 ScanReader::Item ScanReader::read(std::size_t index) const {
   auto cloud = read_cloud(files_[index]);
   if (!cloud) return tl::unexpected(cloud.error());
-  RecordedScan recorded;
+  TimedScan recorded;
   recorded.scan.T_map_base = poses_[index].T_map_sensor;
   recorded.scan.gravity_map = gravity_map_;
   recorded.scan.points_sensor = std::move(cloud->points);

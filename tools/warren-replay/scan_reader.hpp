@@ -13,34 +13,28 @@
 #include <tl/expected.hpp>
 
 #include "core/exchange/pose_file.hpp"
-#include "core/voxel/scan.hpp"
+#include "tools/warren-replay/scan_source.hpp"
 
 namespace warren {
 
-struct RecordedScan {
-  Scan scan;
-  std::optional<double> time_s;  // of its pose
-};
-
 // Reads a recording's clouds ahead in a thread of its own, so that the disk does not slow the
 // sending. Holds kAhead scans at most.
-class ScanReader {
+class ScanReader : public ScanSource {
  public:
   static constexpr std::size_t kAhead = 4;
 
   // One pose per file.
   ScanReader(std::vector<std::filesystem::path> files, std::vector<TimedPose> poses,
              const Eigen::Vector3d& gravity_map);
-  ~ScanReader();
+  ~ScanReader() override;
   ScanReader(const ScanReader&) = delete;
   ScanReader& operator=(const ScanReader&) = delete;
 
-  std::size_t count() const { return files_.size(); }
-  // The next scan in order; nothing after the last.
-  tl::expected<std::optional<RecordedScan>, std::string> next();
+  std::size_t count() const override { return files_.size(); }
+  tl::expected<std::optional<TimedScan>, std::string> next() override;
 
  private:
-  using Item = tl::expected<RecordedScan, std::string>;
+  using Item = tl::expected<TimedScan, std::string>;
   void read_all(const std::stop_token& stop);
   Item read(std::size_t index) const;
 
