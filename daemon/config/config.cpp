@@ -5,6 +5,8 @@ namespace warren {
 
 SensorModel SensorModelConfig::resolved() const {
   switch (preset) {
+    case SensorModelPreset::kWarren:
+      return SensorModel::ours();
     case SensorModelPreset::kOctomap:
       return SensorModel::octomap_default();
     case SensorModelPreset::kField:

@@ -16,7 +16,7 @@
 namespace warren {
 
 enum class Role : std::uint8_t { kRobot };
-enum class SensorModelPreset : std::uint8_t { kOctomap, kField, kCustom };
+enum class SensorModelPreset : std::uint8_t { kWarren, kOctomap, kField, kCustom };
 
 // Permission bits of a socket file.
 struct FileMode {
@@ -31,7 +31,7 @@ struct SocketConfig {
 };
 
 struct SensorModelConfig {
-  SensorModelPreset preset = SensorModelPreset::kOctomap;
+  SensorModelPreset preset = SensorModelPreset::kWarren;
   // Given exactly when the preset is custom.
   std::optional<double> hit;
   std::optional<double> miss;

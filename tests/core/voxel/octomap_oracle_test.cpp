@@ -29,7 +29,8 @@ MapAgreement integrate_both(const SelfMapConfig& config, const std::vector<Simul
 TEST_CASE("the self-map equals OctoMap's voxel by voxel") {
   const std::vector<SimulatedScan> walk = test::walk_through_room(Room{}, Lidar{}, 6);
   for (const double resolution_m : {0.05, 0.1, 0.2}) {
-    for (const SensorModel& model : {SensorModel::octomap_default(), SensorModel::field()}) {
+    for (const SensorModel& model :
+         {SensorModel::octomap_default(), SensorModel::field(), SensorModel::ours()}) {
       for (const std::optional<double> max_range_m : {std::optional<double>{}, {3.0}}) {
         for (const bool one_ray_per_end_voxel : {false, true}) {
           CAPTURE(resolution_m);
@@ -53,7 +54,8 @@ TEST_CASE("random clouds from random places give OctoMap's map") {
                                              rc::gen::set(&Point3f::y, coordinate),
                                              rc::gen::set(&Point3f::z, coordinate));
   CHECK(rc::check("identical to insertPointCloud", [&] {
-    SelfMapConfig config{0.1, *rc::gen::element(SensorModel{}, SensorModel::field()), false};
+    SelfMapConfig config{
+        0.1, *rc::gen::element(SensorModel{}, SensorModel::field(), SensorModel::ours()), false};
     std::vector<SimulatedScan> scans;
     const int count = *rc::gen::inRange(1, 12);
     for (int i = 0; i < count; ++i) {

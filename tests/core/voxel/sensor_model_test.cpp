@@ -26,10 +26,12 @@ void check_close(const SensorModel& model) {
 TEST_CASE("fixed point keeps all four log-odds of both shipped models") {
   check_close(SensorModel::octomap_default());
   check_close(SensorModel::field());
+  check_close(SensorModel::ours());
 }
 
 TEST_CASE("the sign of any sum of hits and misses survives fixed point") {
-  for (const SensorModel& model : {SensorModel::octomap_default(), SensorModel::field()}) {
+  for (const SensorModel& model :
+       {SensorModel::octomap_default(), SensorModel::field(), SensorModel::ours()}) {
     const FixedSensorModel fixed(model);
     for (int hits = 0; hits < 40; ++hits) {
       for (int misses = 0; misses < 200; ++misses) {
@@ -43,6 +45,7 @@ TEST_CASE("the sign of any sum of hits and misses survives fixed point") {
 
 TEST_CASE("a model is valid only inside its ranges") {
   CHECK(SensorModel::field().is_valid());
+  CHECK(SensorModel::ours().is_valid());
   CHECK_FALSE(SensorModel{0.5, 0.4, 0.1, 0.9}.is_valid());
   CHECK_FALSE(SensorModel{0.7, 0.5, 0.1, 0.9}.is_valid());
   CHECK_FALSE(SensorModel{0.7, 0.4, 0.0, 0.9}.is_valid());
