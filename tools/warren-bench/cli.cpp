@@ -6,15 +6,24 @@
 namespace warren {
 namespace {
 
-struct RawIntegrate {
+struct RawSource {
   std::string clouds;
   std::string poses;
   std::string poses_format = "kitti";
-  std::string sensor_model = "default";
   double max_range_m = 0.0;
-  bool json = false;
-  IntegrateOptions options;
   std::size_t most_scans = 0;
+};
+
+struct RawIntegrate {
+  RawSource source;
+  std::string sensor_model = "default";
+  IntegrateOptions options;
+  bool json = false;
+};
+
+struct RawTerrain {
+  RawSource source;
+  bool json = false;
 };
 
 struct RawMapQuality {
@@ -22,27 +31,36 @@ struct RawMapQuality {
   std::vector<double> custom;  // hit, miss, minimum, maximum
 };
 
-void add_options(CLI::App& app, RawIntegrate& raw) {
+void add_source(CLI::App& app, RawSource& raw, const char* max_range_help) {
   app.add_option("--clouds", raw.clouds, "directory of clouds, or one")->required();
   app.add_option("--poses", raw.poses, "pose file (none: identity)");
   app.add_option("--poses-format", raw.poses_format, "kitti, tum or matrix4")
       ->check(CLI::IsMember({"kitti", "tum", "matrix4"}));
+  app.add_option("--max-range", raw.max_range_m, max_range_help)
+      ->check(CLI::Range(0.0, 1e4))
+      ->capture_default_str();
+  app.add_option("--scans", raw.most_scans, "at most so many; 0: all")->capture_default_str();
+}
+
+void add_options(CLI::App& app, RawIntegrate& raw) {
+  add_source(app, raw.source, "m; 0: no limit");
   app.add_option("--resolution", raw.options.map.resolution_m, "edge of a voxel, m")
       ->check(CLI::Range(0.001, 10.0))
-      ->capture_default_str();
-  app.add_option("--max-range", raw.max_range_m, "m; 0: no limit")
-      ->check(CLI::Range(0.0, 1e4))
       ->capture_default_str();
   app.add_option("--sensor-model", raw.sensor_model, "default (OctoMap's) or field")
       ->check(CLI::IsMember({"default", "field"}))
       ->capture_default_str();
   app.add_flag("--one-ray-per-end-voxel", raw.options.map.one_ray_per_end_voxel,
                "both sides with one ray per end voxel (OctoMap's discretize)");
-  app.add_option("--scans", raw.most_scans, "at most so many; 0: all")->capture_default_str();
   app.add_option("--growth-copies", raw.options.growth_copies,
                  "also measure our cost in a map of so many copies of the scene")
       ->check(CLI::Range(0, 24))
       ->capture_default_str();
+  app.add_flag("--json", raw.json, "one JSON object instead of text");
+}
+
+void add_options(CLI::App& app, RawTerrain& raw) {
+  add_source(app, raw.source, "m; points beyond are left out; 0: no limit");
   app.add_flag("--json", raw.json, "one JSON object instead of text");
 }
 
@@ -67,18 +85,28 @@ void add_options(CLI::App& app, RawMapQuality& raw) {
   app.add_flag("--json", raw.command.json, "one JSON object instead of text");
 }
 
+SequenceSource source_of(const RawSource& raw) {
+  SequenceSource source;
+  source.clouds = raw.clouds;
+  if (!raw.poses.empty()) source.poses = raw.poses;
+  source.poses_format = *pose_format_of(raw.poses_format);
+  source.most_scans = raw.most_scans;
+  return source;
+}
+
+std::optional<double> max_range_of(const RawSource& raw) {
+  return raw.max_range_m > 0.0 ? std::optional(raw.max_range_m) : std::nullopt;
+}
+
 IntegrateCommand resolve(const RawIntegrate& raw) {
-  IntegrateCommand command;
-  command.source.clouds = raw.clouds;
-  if (!raw.poses.empty()) command.source.poses = raw.poses;
-  command.source.poses_format = *pose_format_of(raw.poses_format);
-  command.source.most_scans = raw.most_scans;
-  command.options = raw.options;
+  IntegrateCommand command{source_of(raw.source), raw.options, max_range_of(raw.source), raw.json};
   command.options.map.sensor_model =
       raw.sensor_model == "field" ? SensorModel::field() : SensorModel::octomap_default();
-  if (raw.max_range_m > 0.0) command.max_range_m = raw.max_range_m;
-  command.json = raw.json;
   return command;
+}
+
+TerrainCommand resolve(const RawTerrain& raw) {
+  return {source_of(raw.source), max_range_of(raw.source), raw.json};
 }
 
 MapQualityCommand resolve(const RawMapQuality& raw) {
@@ -100,18 +128,23 @@ Command parse_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   RawIntegrate integrate;
   RawMapQuality map_quality;
+  RawTerrain terrain;
   CLI::App* const integrate_app =
       app.add_subcommand("integrate", "scans into a map, beside OctoMap");
   CLI::App* const map_quality_app =
       app.add_subcommand("map-quality", "maps of simulated worlds against the truth");
+  CLI::App* const terrain_app =
+      app.add_subcommand("terrain", "scans into costs of the ground, beside PCL");
   add_options(*integrate_app, integrate);
   add_options(*map_quality_app, map_quality);
+  add_options(*terrain_app, terrain);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return ExitCommand{app.exit(error) == 0 ? 0 : 2};
   }
   if (map_quality_app->parsed()) return resolve(map_quality);
+  if (terrain_app->parsed()) return resolve(terrain);
   return resolve(integrate);
 }
 

@@ -19,11 +19,16 @@ struct MapQualityCommand {
   MapQualityOptions options;
   bool json = false;
 };
+struct TerrainCommand {
+  SequenceSource source;
+  std::optional<double> max_range_m;
+  bool json = false;
+};
 struct ExitCommand {  // help was printed (0), or the line was wrong (2)
   int code = 0;
 };
 
-using Command = std::variant<IntegrateCommand, MapQualityCommand, ExitCommand>;
+using Command = std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, ExitCommand>;
 Command parse_command_line(int argc, char** argv);
 
 }  // namespace warren

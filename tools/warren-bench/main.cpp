@@ -2,10 +2,14 @@
 #include <cstdio>
 
 #include "tools/warren-bench/cli.hpp"
+#include "tools/warren-bench/terrain_bench.hpp"
 
 namespace {
 
 using namespace warren;
+
+// Only the layer's origin is snapped by it.
+constexpr double kTerrainLayerResolutionM = 0.1;
 
 int fail(const std::string& why) {
   std::fprintf(stderr, "warren-bench: %s\n", why.c_str());
@@ -32,6 +36,16 @@ int execute(const MapQualityCommand& command) {
   if (!results) return fail(results.error());
   const std::string text =
       command.json ? to_json(*results, command.options) + "\n" : to_text(*results);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+int execute(const TerrainCommand& command) {
+  auto sequence = load_sequence(command.source, kTerrainLayerResolutionM, command.max_range_m);
+  if (!sequence) return fail(sequence.error());
+  sequence->leave_out_beyond_max_range();
+  const auto result = bench_terrain(*sequence);
+  const std::string text = command.json ? to_json(result) + "\n" : to_text(result);
   std::fputs(text.c_str(), stdout);
   return 0;
 }

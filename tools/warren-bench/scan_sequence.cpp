@@ -27,6 +27,20 @@ std::size_t ScanSequence::point_count() const {
   return count;
 }
 
+void ScanSequence::leave_out_beyond_max_range() {
+  if (!max_range_m) return;
+  const double most = *max_range_m * *max_range_m;
+  for (Item& item : scans) {
+    const Point3f o = item.origin_layer;
+    std::erase_if(item.points_layer, [&](const Point3f& p) {
+      const double x = p.x - o.x;
+      const double y = p.y - o.y;
+      const double z = p.z - o.z;
+      return x * x + y * y + z * z > most;
+    });
+  }
+}
+
 ScanSequence ScanSequence::moved_by(const Point3f& offset) const {
   const auto move = [&](Point3f& p) { p = {p.x + offset.x, p.y + offset.y, p.z + offset.z}; };
   ScanSequence moved = *this;

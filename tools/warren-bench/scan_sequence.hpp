@@ -35,6 +35,7 @@ struct ScanSequence {
     return {scans[index].origin_layer, scans[index].points_layer, max_range_m, {}};
   }
   std::size_t point_count() const;
+  void leave_out_beyond_max_range();
   // The same scans, moved.
   ScanSequence moved_by(const Point3f& offset) const;
 };

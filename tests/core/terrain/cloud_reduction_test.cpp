@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/terrain/cloud_reduction.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include "tests/core/terrain/clouds.hpp"
+
+using namespace warren;
+
+namespace {
+
+bool same(const ReducedCloud& a, const ReducedCloud& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.weights == b.weights;
+}
+
+}  // namespace
+
+TEST_CASE("every point is in the centroid of its cell") {
+  CHECK(rc::check("centroids", [] {
+    const auto points = test::arbitrary_cloud(300);
+    std::map<std::array<float, 3>, std::array<double, 4>> cells;
+    for (const Point3f& p : points) {
+      auto& sum =
+          cells[{std::floor(p.x * 20.0F), std::floor(p.y * 20.0F), std::floor(p.z * 20.0F)}];
+      sum = {sum[0] + p.x, sum[1] + p.y, sum[2] + p.z, sum[3] + 1.0};
+    }
+    std::vector<std::array<float, 4>> wanted;
+    for (const auto& [cell, s] : cells) {
+      wanted.push_back({static_cast<float>(s[0] / s[3]), static_cast<float>(s[1] / s[3]),
+                        static_cast<float>(s[2] / s[3]), static_cast<float>(s[3])});
+    }
+    CloudReducer reducer(0.05F);
+    const ReducedCloud& reduced = reducer.reduce(points);
+    std::vector<std::array<float, 4>> got;
+    for (std::size_t i = 0; i < reduced.size(); ++i) {
+      got.push_back(
+          {reduced.x[i], reduced.y[i], reduced.z[i], static_cast<float>(reduced.weights[i])});
+    }
+    RC_ASSERT(got.size() == wanted.size());
+    std::sort(wanted.begin(), wanted.end());
+    std::sort(got.begin(), got.end());
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      for (std::size_t axis = 0; axis < 4; ++axis) {
+        RC_ASSERT(std::abs(got[i][axis] - wanted[i][axis]) <=
+                  1e-6F + 2e-7F * std::abs(wanted[i][axis]));
+      }
+    }
+  }));
+}
+
+TEST_CASE("the order of points does not change a bit of the reduced cloud") {
+  CHECK(rc::check("shuffled", [](std::uint32_t seed) {
+    auto points = test::arbitrary_cloud(300);
+    CloudReducer first(0.05F);
+    CloudReducer second(0.05F);
+    const ReducedCloud& a = first.reduce(points);
+    std::shuffle(points.begin(), points.end(), std::mt19937(seed));
+    RC_ASSERT(same(a, second.reduce(points)));
+    RC_ASSERT(same(a, second.reduce(points)));
+  }));
+}
+
+TEST_CASE("tiles hold all points, each in its own tile's range, in order") {
+  CloudReducer reducer(0.05F);
+  const ReducedCloud& cloud = reducer.reduce(test::ramp(0.3F));
+  std::uint32_t next = 0;
+  for (const Tile& tile : cloud.tiles.tiles()) {
+    CHECK(tile.points.first == next);
+    CHECK(tile.points.end > next);
+    next = tile.points.end;
+  }
+  CHECK(next == cloud.size());
+  CHECK(std::accumulate(cloud.weights.begin(), cloud.weights.end(), 0U) == 41 * 41);
+}
