@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -27,10 +29,12 @@ int fail(const std::string& why) {
   return 1;
 }
 
-void say(const World& world) {
-  fmt::print(stderr, "world {}, seed {}: {} triangles, {:.0f} m of passages, {} stairways\n",
-             world.name, world.seed, world.mesh.triangles.size(), world.passages.length_m(),
-             world.stairways.size());
+void say(const World& world, double cpu_s) {
+  fmt::print(
+      stderr,
+      "world {}, seed {}: {} triangles, {:.0f} m of passages, {} stairways, made in {:.1f} s\n",
+      world.name, world.seed, world.mesh.triangles.size(), world.passages.length_m(),
+      world.stairways.size(), cpu_s);
 }
 
 void show_count(std::size_t done, std::size_t all) {
@@ -41,9 +45,11 @@ void show_count(std::size_t done, std::size_t all) {
 int execute(const RecordCommand& command, const World& world) {
   const Simulation simulation(world, make_simulation_spec(command.scenario));
   const std::filesystem::path out = command.out;
-  if (const auto recorded = record(simulation, out, show_count); !recorded) {
-    return fail(recorded.error());
-  }
+  const auto recorded = record(simulation, out, show_count);
+  if (!recorded) return fail(recorded.error());
+  fmt::print(
+      stderr, "cast in {:.1f} ms CPU per sweep\n",
+      1e3 * recorded->cast_cpu_s / static_cast<double>(std::max<std::size_t>(1, recorded->sweeps)));
   const auto written = write_truth(out / "truth", simulation, command.truth);
   return written ? 0 : fail(written.error());
 }
@@ -94,9 +100,10 @@ int execute(const RadioCommand& command, const World& world) {
 
 template <typename WorldCommand>
 int execute(const WorldCommand& command) {
+  const std::clock_t before = std::clock();
   const auto world = make_world(command.scenario);
   if (!world) return fail(world.error());
-  say(*world);
+  say(*world, static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
   return execute(command, *world);
 }
 

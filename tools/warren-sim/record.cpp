@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warren-sim/record.hpp"
 
+#include <ctime>
 #include <fstream>
 #include <span>
 
@@ -64,26 +65,33 @@ class RobotFolder {
   std::size_t frames_ = 0;
 };
 
+std::optional<Frame> next_timed(FrameStream& frames, double& cpu_s) {
+  const std::clock_t before = std::clock();
+  auto frame = frames.next();
+  cpu_s += static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  return frame;
+}
+
 }  // namespace
 
-tl::expected<void, std::string> record(const Simulation& simulation,
-                                       const std::filesystem::path& directory,
-                                       const RecordProgress& progress) {
+tl::expected<RecordSummary, std::string> record(const Simulation& simulation,
+                                                const std::filesystem::path& directory,
+                                                const RecordProgress& progress) {
   std::size_t all = 0;
   for (std::size_t robot = 0; robot < simulation.spec().robots.size(); ++robot) {
     all += FrameStream(simulation, robot).count();
   }
-  std::size_t done = 0;
+  RecordSummary summary;
   for (std::size_t robot = 0; robot < simulation.spec().robots.size(); ++robot) {
     RobotFolder folder(directory / simulation.spec().robots[robot].name);
     FrameStream frames(simulation, robot);
-    while (const auto frame = frames.next()) {
-      if (const auto added = folder.add(*frame); !added) return added;
-      progress(++done, all);
+    while (const auto frame = next_timed(frames, summary.cast_cpu_s)) {
+      if (const auto added = folder.add(*frame); !added) return tl::unexpected(added.error());
+      progress(++summary.sweeps, all);
     }
-    if (const auto finished = folder.finish(); !finished) return finished;
+    if (const auto done = folder.finish(); !done) return tl::unexpected(done.error());
   }
-  return {};
+  return summary;
 }
 
 }  // namespace warren::world
