@@ -45,7 +45,8 @@ class CaveGrowth {
     grid_.update();
     worms_.push_back({.steps_left = 60, .trail = {0}});
     // The bound keeps a cave that boxed itself in from trying forever.
-    for (double tries = 0.0; length_m_ < target_m_ && tries < kTriesPerMetre * target_m_; ++tries) {
+    const auto most_tries = static_cast<std::int64_t>(kTriesPerMetre * target_m_);
+    for (std::int64_t tries = 0; length_m_ < target_m_ && tries < most_tries; ++tries) {
       if (worms_.empty()) revive();
       const std::size_t turn = random_.below(static_cast<std::uint32_t>(worms_.size()));
       if (!advance(worms_[turn])) worms_.erase(worms_.begin() + static_cast<std::ptrdiff_t>(turn));
@@ -164,7 +165,8 @@ bool CaveGrowth::can_join(const Worm& worm, std::uint32_t other) const {
   const auto own = grid_.hops_from(worm.node, kOwnKin);
   const auto theirs = grid_.hops_from(other, kOwnKin);
   // Neither end may run beside a floor of another height, nor the way break into a third passage.
-  for (double t = 0.2; t < 0.9; t += 0.2) {
+  for (int fifth = 1; fifth < 5; ++fifth) {
+    const double t = 0.2 * fifth;
     const Eigen::Vector3d place = here + t * way;
     if (space_.tilts(place, worm.half_width_m, theirs, {other}) ||
         space_.tilts(place, worm.half_width_m, own, worm.trail) ||

@@ -32,7 +32,8 @@ TEST_CASE("slopes cost what the field code's formula says") {
 TEST_CASE("cost grows with slope and is the same for either sign of the normal") {
   for (const TerrainConfig& config : {TerrainConfig::paper(), TerrainConfig::robust()}) {
     float last = 0.0F;
-    for (float degrees = 0.0F; degrees <= 90.0F; degrees += 0.25F) {
+    for (int quarter = 0; quarter <= 360; ++quarter) {
+      const float degrees = 0.25F * static_cast<float>(quarter);
       GroundShape shape = slope(degrees);
       const float cost = terrain_cost(shape, config.cost);
       CHECK(cost >= last);

@@ -92,7 +92,8 @@ TEST_CASE("steeper ramps cost more") {
   for (const TerrainConfig& config : {TerrainConfig::paper(), TerrainConfig::robust()}) {
     TerrainJudge judge(config);
     float last = -1e-3F;
-    for (float degrees = 0.0F; degrees <= 44.0F; degrees += 4.0F) {
+    for (int step = 0; step <= 11; ++step) {
+      const float degrees = 4.0F * static_cast<float>(step);
       const float cost = mean_cost(judge.judge({test::ramp(degrees * kDegree), {}}));
       CHECK(cost >= last);
       last = cost;

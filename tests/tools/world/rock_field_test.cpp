@@ -37,7 +37,8 @@ TEST_CASE("the floor follows the line over bends in slope and where passages mee
       passage({0, 0, 0}, {2, 0, 0}), passage({2, 0, 0}, {4, 0, 1}), passage({2, 0, 0}, {2, 2, -1})};
   const RockField field(smooth(Section::kOval), passages);
   for (const Passage& way : passages) {
-    for (double t = 0.0; t <= 1.0; t += 0.1) {
+    for (int tenth = 0; tenth <= 10; ++tenth) {
+      const double t = 0.1 * tenth;
       const Eigen::Vector3d place = way.from.floor + t * (way.to.floor - way.from.floor);
       CHECK(std::abs(field.ground_z(place + Eigen::Vector3d(0, 0, 0.6)) - place.z()) < 0.1);
     }
@@ -48,8 +49,10 @@ TEST_CASE("a storey above does not change the floor below") {
   const RockField one(smooth(Section::kOval), {passage({0, 0, 0}, {4, 0, 0})});
   const RockField two(smooth(Section::kOval),
                       {passage({0, 0, 0}, {4, 0, 0}), passage({2, -2, 5}, {2, 2, 5})});
-  for (double z = -1.0; z < 3.0; z += 0.1)
+  for (int tenth = -10; tenth < 30; ++tenth) {
+    const double z = 0.1 * tenth;
     CHECK(one.value({2, 0.3, z}) == doctest::Approx(two.value({2, 0.3, z})));
+  }
 }
 
 TEST_CASE("a shaft is air through floors") {

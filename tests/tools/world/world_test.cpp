@@ -46,7 +46,8 @@ void check_edges_are_free(const World& world, const test::RayGrid& rays) {
     for (const double aside : {-1.0, 0.0, 1.0})
       CHECK_FALSE(rays.first_hit(from + aside * left + 0.5 * kUp, to + aside * left + 0.5 * kUp));
     // And there is ground all the way.
-    for (double t = 0.0; t < 1.0; t += 0.125) {
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const double t = 0.125 * eighth;
       const auto below_m = rays.down(from + t * (to - from) + 0.5 * kUp, 1.5);
       REQUIRE(below_m.has_value());
       CHECK(std::abs(*below_m - 0.5) < 0.35);
