@@ -49,7 +49,7 @@ Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::pa
       dependencies_(std::move(dependencies)),
       ingest_socket_(std::move(ingest_socket)),
       control_socket_(std::move(control_socket)),
-      mapper_(config.map.self_map(), filters_of(config), config.ingest.queue_scans,
+      mapper_({config.self_map(), config.terrain.resolved()}, filters_of(config), config.ingest.queue_scans,
               mapper_dependencies()),
       ingest_(io, ingest_socket_.release_descriptor(), config, mapper_),
       service_(service_dependencies()),

@@ -2,6 +2,8 @@
 #include "core/exchange/cloud_writer.hpp"
 
 #include <cmath>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "core/exchange/float_rows.hpp"
@@ -9,19 +11,23 @@
 namespace warren {
 namespace {
 
-// x y z p of every occupied voxel.
+const std::vector<std::string> kColumns{"x", "y", "z", "p", "cost"};
+constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
+
+// x y z p cost of every occupied voxel.
 std::vector<float> occupied_rows(const MapSnapshot& map, const LayerOrigin& shift) {
   const double resolution_m = map.voxels.lattice().resolution_m();
   const auto centre = [&](std::int64_t key) {
     return static_cast<float>((static_cast<double>(key) + 0.5) * resolution_m);
   };
   std::vector<float> rows;
-  rows.reserve(4 * map.voxels.counts().occupied);
+  rows.reserve(kColumns.size() * map.voxels.counts().occupied);
   map.voxels.for_each_known_voxel(
       KeyBox{}, [&](const VoxelKey& key, VoxelState state, float log_odds) {
         if (state != VoxelState::kOccupied) return;
-        rows.insert(rows.end(), {centre(key.x + shift.x), centre(key.y + shift.y),
-                                 centre(key.z + shift.z), 1.0F / (1.0F + std::exp(-log_odds))});
+        rows.insert(rows.end(),
+                    {centre(key.x + shift.x), centre(key.y + shift.y), centre(key.z + shift.z),
+                     1.0F / (1.0F + std::exp(-log_odds)), map.voxels.cost(key).value_or(kNoData)});
       });
   return rows;
 }
@@ -31,13 +37,13 @@ std::vector<float> occupied_rows(const MapSnapshot& map, const LayerOrigin& shif
 WriteResult write_pcd(const MapSnapshot& map, const LayerOrigin& shift,
                       const std::filesystem::path& file) {
   const std::vector<float> rows = occupied_rows(map, shift);
-  return write_rows_pcd({{"x", "y", "z", "p"}, rows}, file);
+  return write_rows_pcd({kColumns, rows}, file);
 }
 
 WriteResult write_ply(const MapSnapshot& map, const LayerOrigin& shift,
                       const std::filesystem::path& file) {
   const std::vector<float> rows = occupied_rows(map, shift);
-  return write_rows_ply({{"x", "y", "z", "p"}, rows}, file);
+  return write_rows_ply({kColumns, rows}, file);
 }
 
 }  // namespace warren

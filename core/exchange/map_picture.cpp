@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -22,10 +23,15 @@ constexpr Rectangle kTopPanel{20, 84, 770, 740};
 constexpr Rectangle kObliquePanel{810, 84, 770, 740};
 constexpr Rectangle kLegend{1180, 862, 300, 14};
 constexpr int kTextHeight = 16;
+constexpr int kSwatchDistance = 340;
 
 constexpr Colour kPage{24, 26, 31};
 constexpr Colour kPanel{13, 14, 17};
 constexpr Colour kFreeGround{58, 63, 72};
+// Black and white must both stand out.
+constexpr Colour kCostPanel{46, 66, 98};
+constexpr Colour kCostFreeGround{66, 90, 128};
+constexpr Colour kNoCost{214, 40, 40};
 constexpr Colour kText{226, 228, 232};
 constexpr Colour kFaintText{150, 155, 164};
 // Even steps of lightness from low to high, so that heights also read in grey.
@@ -48,6 +54,12 @@ Colour height_colour(double share) {
     return static_cast<std::uint8_t>(a * (1.0 - part) + b * part);
   };
   return {mix(low.red, high.red), mix(low.green, high.green), mix(low.blue, high.blue)};
+}
+
+Colour cost_colour(const std::optional<float>& cost) {
+  if (!cost) return kNoCost;
+  const auto grey = static_cast<std::uint8_t>(std::lround(*cost * 255.0F));
+  return {grey, grey, grey};
 }
 
 Eigen::Vector3d centre_of(const VoxelKey& key) {
@@ -91,12 +103,14 @@ double round_length(double limit) {
 
 class MapPicture {
  public:
-  explicit MapPicture(const MapSnapshot& map)
-      : map_(map), resolution_m_(map.voxels.lattice().resolution_m()) {}
+  MapPicture(const MapSnapshot& map, PictureColours colours)
+      : map_(map), colours_(colours), resolution_m_(map.voxels.lattice().resolution_m()) {}
 
   Image draw() {
     draw_title();
-    for (const Rectangle& panel : {kTopPanel, kObliquePanel}) image_.fill(panel, kPanel);
+    for (const Rectangle& panel : {kTopPanel, kObliquePanel}) {
+      image_.fill(panel, shows_cost() ? kCostPanel : kPanel);
+    }
     caption(kTopPanel, "from above, without what is 2 m over the ground");
     caption(kObliquePanel, "the same, seen obliquely");
     const auto bounds = map_.voxels.bounds();
@@ -128,14 +142,15 @@ class MapPicture {
     SplatView oblique(Camera(60.0 * kDegree, 40.0 * kDegree), box, kObliquePanel.width,
                       kObliquePanel.height);
     relief.for_each_free_cell([&](const VoxelKey& key, std::int32_t edge) {
-      top.add_ground(centre_of(key), edge, kFreeGround);
-      oblique.add_ground(centre_of(key), edge, kFreeGround);
+      top.add_ground(centre_of(key), edge, free_ground());
+      oblique.add_ground(centre_of(key), edge, free_ground());
     });
     map_.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
       if (state != VoxelState::kOccupied || !relief.is_shown(key)) return;
-      const Eigen::Vector3f normal = normal_of(map_.voxels, key);
-      const Colour colour = height_colour(static_cast<double>(key.z - extent.low.z) /
-                                          std::max(1, extent.high.z - extent.low.z));
+      // Light and shade would change what a cost looks like.
+      const Eigen::Vector3f normal =
+          shows_cost() ? Eigen::Vector3f::Zero() : normal_of(map_.voxels, key);
+      const Colour colour = colour_of(key, extent);
       top.add_cube(centre_of(key), 1.0, normal, colour);
       oblique.add_cube(centre_of(key), 1.0, normal, colour);
     });
@@ -159,15 +174,31 @@ class MapPicture {
 
   void draw_legend(const KeyBox& extent) {
     for (int x = 0; x < kLegend.width; ++x) {
+      const double share = static_cast<double>(x) / (kLegend.width - 1);
       image_.fill({kLegend.left + x, kLegend.top, 1, kLegend.height},
-                  height_colour(static_cast<double>(x) / (kLegend.width - 1)));
+                  shows_cost() ? cost_colour(static_cast<float>(share)) : height_colour(share));
     }
-    const std::string low = std::string("height ").append(height(extent.low.z));
+    const std::string low =
+        shows_cost() ? "cost 0, easy" : std::string("height ").append(height(extent.low.z));
+    const std::string high = shows_cost() ? "1" : height(extent.high.z);
     image_.draw_text(kLegend.left - 12 - Image::text_width(low), kLegend.top - 1, low, kText);
-    image_.draw_text(kLegend.left + kLegend.width + 12, kLegend.top - 1, height(extent.high.z),
-                     kText);
-    image_.fill({kTopPanel.left, kLegend.top, kLegend.height, kLegend.height}, kFreeGround);
-    image_.draw_text(kTopPanel.left + 24, kLegend.top - 1, "free, ground not seen", kFaintText);
+    image_.draw_text(kLegend.left + kLegend.width + 12, kLegend.top - 1, high, kText);
+    draw_swatch(kTopPanel.left, free_ground(), "free, ground not seen");
+    if (shows_cost()) draw_swatch(kTopPanel.left + kSwatchDistance, kNoCost, "no data");
+  }
+
+  void draw_swatch(int left, const Colour& colour, const char* meaning) {
+    image_.fill({left, kLegend.top, kLegend.height, kLegend.height}, colour);
+    image_.draw_text(left + 24, kLegend.top - 1, meaning, kFaintText);
+  }
+
+  bool shows_cost() const { return colours_ == PictureColours::kCost; }
+  Colour free_ground() const { return shows_cost() ? kCostFreeGround : kFreeGround; }
+
+  Colour colour_of(const VoxelKey& key, const KeyBox& extent) const {
+    if (shows_cost()) return cost_colour(map_.voxels.cost(key));
+    return height_colour(static_cast<double>(key.z - extent.low.z) /
+                         std::max(1, extent.high.z - extent.low.z));
   }
 
   std::string height(std::int32_t key_z) const {
@@ -176,14 +207,16 @@ class MapPicture {
   }
 
   const MapSnapshot& map_;
+  PictureColours colours_;
   double resolution_m_;
   Image image_{kWidth, kHeight, kPage};
 };
 
 }  // namespace
 
-WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file) {
-  return write_png(MapPicture(map).draw(), file);
+WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file,
+                              PictureColours colours) {
+  return write_png(MapPicture(map, colours).draw(), file);
 }
 
 }  // namespace warren

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "core/exchange/atomic_file.hpp"
@@ -8,8 +9,14 @@
 
 namespace warren {
 
+enum class PictureColours : std::uint8_t {
+  kHeight,  // in the map frame, z up
+  kCost,    // of the ground: black easy, white impossible, red no data
+};
+
 // Draws the map for people, 1600x900: a view from above and an oblique one, both without what lies
-// 2 m or more above the local ground, coloured by height in the map frame (z up), with scales.
-WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file);
+// 2 m or more above the local ground, with scales.
+WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file,
+                              PictureColours colours = PictureColours::kHeight);
 
 }  // namespace warren

@@ -8,7 +8,6 @@
 #include "core/exchange/cloud_writer.hpp"
 #include "core/exchange/file_ending.hpp"
 #include "core/exchange/map_frame.hpp"
-#include "core/exchange/map_picture.hpp"
 #include "core/exchange/octomap_writer.hpp"
 
 namespace warren {
@@ -38,26 +37,28 @@ Job cloud_job(const MapSnapshot& map, const MapCounts& counts, decltype(&write_p
       [&map, shift = frame.shift, write](const fs::path& file) { return write(map, shift, file); }};
 }
 
-Job picture_job(const MapSnapshot& map, const MapCounts& counts) {
+Job picture_job(const MapSnapshot& map, const MapCounts& counts, PictureColours colours) {
   return {counts.free + counts.occupied, "",
-          [&map](const fs::path& file) { return write_map_picture(map, file); }};
+          [&map, colours](const fs::path& file) { return write_map_picture(map, file, colours); }};
 }
 
-std::optional<Job> job_for(const std::string& ending, const MapSnapshot& map) {
+std::optional<Job> job_for(const std::string& ending, const MapSnapshot& map,
+                           PictureColours colours) {
   const MapCounts counts = map.voxels.counts();
   if (ending == ".bt") return tree_job(map, counts, OctomapFormat::kBinary);
   if (ending == ".ot") return tree_job(map, counts, OctomapFormat::kFull);
   if (ending == ".ply") return cloud_job(map, counts, write_ply);
   if (ending == ".pcd") return cloud_job(map, counts, write_pcd);
-  if (ending == ".png") return picture_job(map, counts);
+  if (ending == ".png") return picture_job(map, counts, colours);
   return std::nullopt;
 }
 
 }  // namespace
 
-tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map, const fs::path& file) {
+tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map, const fs::path& file,
+                                               PictureColours colours) {
   const std::string ending = lower_case_ending(file);
-  const auto job = job_for(ending, map);
+  const auto job = job_for(ending, map, colours);
   if (!job) {
     return tl::make_unexpected("cannot write " + file.string() +
                                ": the ending must be .bt, .ot, .ply, .pcd or .png");

@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include "core/exchange/map_picture.hpp"
 #include "core/exchange/map_snapshot.hpp"
 
 namespace warren {
@@ -19,10 +20,12 @@ struct SaveReport {
 };
 
 // Writes the map by the file's ending: .bt .ot OctoMap trees, .ply .pcd centres of the occupied
-// voxels (float32 x y z and probability p), .png a picture for people. Trees and clouds are in the
-// map frame unless that cannot hold them exactly; then in the layer frame, and the note says where
-// that lies. The file is replaced whole and on disk, or, on an error, left as it was.
+// voxels (float32 x y z, probability p and cost, NaN without data), .png a picture for people.
+// Trees and clouds are in the map frame unless that cannot hold them exactly; then in the layer
+// frame, and the note says where that lies. The file is replaced whole and on disk, or, on an
+// error, left as it was.
 tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map,
-                                               const std::filesystem::path& file);
+                                               const std::filesystem::path& file,
+                                               PictureColours colours = PictureColours::kHeight);
 
 }  // namespace warren

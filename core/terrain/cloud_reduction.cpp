@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kCellsPerTile = kTileCells * kTileCells * kTileCells;
 static_assert(kCellsPerTile <= 64, "one mask names the occupied cells");
+static_assert(kMaxReducedPoints * kCellsPerTile < 0xFFFFFFFFU, "a number with its cell fits");
 
 // Adding and taking away this rounds a small number to a multiple of 2^-30 m: sums of up to 2^22
 // such offsets within a tile are exact, in whatever order.
@@ -28,6 +29,13 @@ double low_corner_m(std::uint32_t tile, double cell_m) {
   return (static_cast<double>(tile) * kTileCells - kCellLimit) * cell_m;
 }
 
+float squared_distance(const Point3f& a, const Point3f& b) {
+  const float x = a.x - b.x;
+  const float y = a.y - b.y;
+  const float z = a.z - b.z;
+  return x * x + y * y + z * z;
+}
+
 struct CellSum {
   double x = 0.0;
   double y = 0.0;
@@ -41,10 +49,12 @@ CloudReducer::CloudReducer(float cell_m) : cell_m_(cell_m), per_metre_(1.0F / ce
   assert(cell_m > 0.0F);
 }
 
-const ReducedCloud& CloudReducer::reduce(std::span<const Point3f> points) {
+const ReducedCloud& CloudReducer::reduce(std::span<const Point3f> points,
+                                         const ReductionSphere& within) {
   report_ = {};
   report_.over_limit = points.size() - std::min(points.size(), kMaxReducedPoints);
-  place_points(points.first(std::min(points.size(), kMaxReducedPoints)));
+  points = points.first(std::min(points.size(), kMaxReducedPoints));
+  place_points(points, within);
   order_tiles();
   group_points_by_tile();
 
@@ -54,7 +64,7 @@ const ReducedCloud& CloudReducer::reduce(std::span<const Point3f> points) {
   cloud_.weights.clear();
   for (std::size_t rank = 0; rank < tiles_.size(); ++rank) {
     tiles_[rank].points.first = static_cast<std::uint32_t>(cloud_.size());
-    add_tile(tiles_[rank],
+    add_tile(tiles_[rank], points,
              std::span(grouped_).subspan(starts_[rank], starts_[rank + 1] - starts_[rank]));
     tiles_[rank].points.end = static_cast<std::uint32_t>(cloud_.size());
   }
@@ -62,26 +72,26 @@ const ReducedCloud& CloudReducer::reduce(std::span<const Point3f> points) {
   return cloud_;
 }
 
-void CloudReducer::place_points(std::span<const Point3f> points) {
+void CloudReducer::place_points(std::span<const Point3f> points, const ReductionSphere& within) {
   table_.reset(met_tiles_.size());
   met_tiles_.clear();
   last_key_ = 0;
   placed_.clear();
   placed_.reserve(points.size());
   constexpr auto kLimit = static_cast<float>(kCellLimit);
+  const float squared_radius = within.radius_m * within.radius_m;
   for (const Point3f& point : points) {
     const float x = point.x * per_metre_;
     const float y = point.y * per_metre_;
     const float z = point.z * per_metre_;
-    if (std::abs(x) < kLimit && std::abs(y) < kLimit && std::abs(z) < kLimit) {
-      place(point, x, y, z);
-    } else {
-      reject(point);
-    }
+    const bool in_space = std::abs(x) < kLimit && std::abs(y) < kLimit && std::abs(z) < kLimit;
+    const bool is_near = squared_distance(point, within.centre) <= squared_radius;
+    placed_.push_back(in_space && is_near ? place(x, y, z) : leave_out(point));
   }
 }
 
-void CloudReducer::place(const Point3f& point, float x, float y, float z) {
+// Gives the tile's number with the cell.
+CloudReducer::WithCell CloudReducer::place(float x, float y, float z) {
   const std::uint32_t cx = cell_at(x);
   const std::uint32_t cy = cell_at(y);
   const std::uint32_t cz = cell_at(z);
@@ -96,11 +106,20 @@ void CloudReducer::place(const Point3f& point, float x, float y, float z) {
     if (last_tile_ == fresh) met_tiles_.push_back({at, {}});
   }
   ++met_tiles_[last_tile_].points.end;
-  placed_.push_back({point, cell, last_tile_});
+  return last_tile_ * kCellsPerTile + cell;
 }
 
-void CloudReducer::reject(const Point3f& point) {
-  ++(is_finite(point) ? report_.outside : report_.not_finite);
+CloudReducer::WithCell CloudReducer::leave_out(const Point3f& point) {
+  constexpr auto kLimit = static_cast<float>(kCellLimit);
+  const auto is_inside = [&](float axis_m) { return std::abs(axis_m * per_metre_) < kLimit; };
+  if (!is_finite(point)) {
+    ++report_.not_finite;
+  } else if (is_inside(point.x) && is_inside(point.y) && is_inside(point.z)) {
+    ++report_.too_far;
+  } else {
+    ++report_.outside;
+  }
+  return kLeftOut;
 }
 
 void CloudReducer::order_tiles() {
@@ -126,26 +145,31 @@ void CloudReducer::group_points_by_tile() {
   for (std::size_t met = 0; met < met_tiles_.size(); ++met) {
     met_tiles_[met].points.first = starts_[rank_of_met_[met]];
   }
-  grouped_.resize(placed_.size());
-  for (const PlacedPoint& placed : placed_)
-    grouped_[met_tiles_[placed.tile].points.first++] = placed;
+  grouped_.resize(starts_.back());
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    if (placed_[i] == kLeftOut) continue;
+    const std::uint32_t place = met_tiles_[placed_[i] / kCellsPerTile].points.first++;
+    grouped_[place] = static_cast<WithCell>(i) * kCellsPerTile + placed_[i] % kCellsPerTile;
+  }
 }
 
-void CloudReducer::add_tile(const Tile& tile, std::span<const PlacedPoint> points) {
+void CloudReducer::add_tile(const Tile& tile, std::span<const Point3f> points,
+                            std::span<const WithCell> in_tile) {
   std::array<CellSum, kCellsPerTile> sums;  // only what the mask names is set
   std::uint64_t occupied = 0;
   const double cell_m = cell_m_;
   const double low_x = low_corner_m(tile.place.x, cell_m);
   const double low_y = low_corner_m(tile.place.y, cell_m);
   const double low_z = low_corner_m(tile.place.z, cell_m);
-  for (const PlacedPoint& placed : points) {
-    CellSum& sum = sums[placed.cell];
-    const std::uint64_t bit = std::uint64_t{1} << placed.cell;
+  for (const WithCell grouped : in_tile) {
+    const Point3f& point = points[grouped / kCellsPerTile];
+    CellSum& sum = sums[grouped % kCellsPerTile];
+    const std::uint64_t bit = std::uint64_t{1} << grouped % kCellsPerTile;
     if ((occupied & bit) == 0) sum = {};
     occupied |= bit;
-    sum.x += rounded(placed.point.x - low_x);
-    sum.y += rounded(placed.point.y - low_y);
-    sum.z += rounded(placed.point.z - low_z);
+    sum.x += rounded(point.x - low_x);
+    sum.y += rounded(point.y - low_y);
+    sum.z += rounded(point.z - low_z);
     ++sum.weight;
   }
   for (; occupied != 0; occupied &= occupied - 1) {

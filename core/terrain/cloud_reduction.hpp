@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,9 +28,16 @@ struct ReducedCloud {
   Point3f point(std::size_t index) const { return {x[index], y[index], z[index]}; }
 };
 
+// What of a cloud is reduced.
+struct ReductionSphere {
+  Point3f centre;
+  float radius_m = std::numeric_limits<float>::infinity();
+};
+
 struct ReductionReport {
   std::uint64_t not_finite = 0;
   std::uint64_t outside = 0;     // more than kCellLimit cells away
+  std::uint64_t too_far = 0;     // outside the sphere
   std::uint64_t over_limit = 0;  // beyond kMaxReducedPoints
 };
 
@@ -40,22 +48,21 @@ class CloudReducer {
   explicit CloudReducer(float cell_m);
 
   // Lives until the next call.
-  const ReducedCloud& reduce(std::span<const Point3f> points);
+  const ReducedCloud& reduce(std::span<const Point3f> points, const ReductionSphere& within = {});
   const ReductionReport& report() const { return report_; }
 
  private:
-  struct PlacedPoint {
-    Point3f point;
-    std::uint32_t cell = 0;  // within its tile
-    std::uint32_t tile = 0;  // in the order of first meeting
-  };
+  // A number of up to 24 bits with the cell within a tile below it.
+  using WithCell = std::uint32_t;
+  static constexpr WithCell kLeftOut = 0xFFFFFFFFU;
 
-  void place_points(std::span<const Point3f> points);
-  void place(const Point3f& point, float x, float y, float z);
-  void reject(const Point3f& point);
+  void place_points(std::span<const Point3f> points, const ReductionSphere& within);
+  WithCell place(float x, float y, float z);
+  WithCell leave_out(const Point3f& point);
   void order_tiles();
   void group_points_by_tile();
-  void add_tile(const Tile& tile, std::span<const PlacedPoint> points);
+  void add_tile(const Tile& tile, std::span<const Point3f> points,
+                std::span<const WithCell> in_tile);
 
   float cell_m_;
   float per_metre_;
@@ -63,9 +70,9 @@ class CloudReducer {
   TileTable table_;  // packed place to a number in met_tiles_
   std::uint64_t last_key_ = 0;
   std::uint32_t last_tile_ = 0;
-  std::vector<Tile> met_tiles_;  // in the order of first meeting; `end` counts points
-  std::vector<PlacedPoint> placed_;
-  std::vector<PlacedPoint> grouped_;
+  std::vector<Tile> met_tiles_;    // in the order of first meeting; `end` counts points
+  std::vector<WithCell> placed_;   // by point: its tile, in the order of first meeting
+  std::vector<WithCell> grouped_;  // indices of points, tile by tile
   struct Ranked {
     std::uint64_t morton = 0;
     std::uint32_t met = 0;

@@ -42,7 +42,9 @@ TerrainJudge::TerrainJudge(const TerrainConfig& config)
     : config_(config), reducer_(config.cell_m), neighbour_search_(config.neighbourhood) {}
 
 std::span<const JudgedPoint> TerrainJudge::judge(const TerrainScan& scan) {
-  cloud_ = &reducer_.reduce(scan.points_layer);
+  cloud_ = scan.max_range_m
+               ? &reducer_.reduce(scan.points_layer, {scan.origin_layer, *scan.max_range_m})
+               : &reducer_.reduce(scan.points_layer);
   neighbourhoods_ = &neighbour_search_.find(*cloud_);
   fit_planes(*neighbourhoods_, config_.neighbourhood.neighbours, fits_);
   weigh_evidence(scan.origin_layer);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct TerrainScan {
   std::span<const Point3f> points_layer;
   Point3f origin_layer;                // of the sensor
   Point3f gravity{0.0F, 0.0F, -1.0F};  // unit length, in the layer frame; either sign will do
+  std::optional<float> max_range_m{};  // farther points are left out
 };
 
 struct TerrainReport {

@@ -23,7 +23,11 @@ std::uint64_t region_code(const VoxelKey& region) {
 }  // namespace
 
 BlockStore::BlockStore(const BlockStore& other)
-    : region_index_(other.region_index_), pool_(other.pool_), values_(other.values_) {
+    : region_index_(other.region_index_),
+      pool_(other.pool_),
+      values_(other.values_),
+      block_costs_(other.block_costs_),
+      costs_(other.costs_) {
   regions_.reserve(other.regions_.size());
   for (const auto& region : other.regions_) regions_.push_back(std::make_unique<Region>(*region));
 }
@@ -86,6 +90,52 @@ std::optional<std::int16_t> BlockStore::value(const VoxelKey& key, std::int16_t 
   return values_.value(held.values[cell], held.stored(cell), place & 63);
 }
 
+std::optional<FusedCost> BlockStore::cost(const VoxelKey& key) const {
+  const BlockSlot slot = slot_of(block_of(key));
+  if (slot < kFirstBlockSlot) return std::nullopt;
+  return cost(block(slot), morton9(key.x, key.y, key.z));
+}
+
+std::optional<FusedCost> BlockStore::cost(const Block& block, std::uint32_t place) const {
+  if (block.costs == 0) return std::nullopt;
+  const BlockCosts& costs = block_costs_[block.costs - 1];
+  const std::size_t cell = place >> 6;
+  if ((costs.costed[cell] >> (place & 63) & 1) == 0) return std::nullopt;
+  return costs_.value(costs.values[cell], costs.costed[cell], place & 63);
+}
+
+void BlockStore::set_cost(Block& block, std::uint32_t place, const FusedCost& cost) {
+  if (block.costs == 0) block.costs = block_costs_.allocate() + 1;
+  BlockCosts& costs = block_costs_[block.costs - 1];
+  const std::size_t cell = place >> 6;
+  const std::uint32_t bit = place & 63;
+  if (const std::uint64_t mask = std::uint64_t{1} << bit; (costs.costed[cell] & mask) == 0) {
+    std::array<FusedCost, 64> values{};
+    costs_.unpack(costs.values[cell], costs.costed[cell], values);
+    costs.costed[cell] |= mask;
+    costs.values[cell] = costs_.repack(costs.values[cell], costs.costed[cell], values);
+  }
+  costs_.value(costs.values[cell], costs.costed[cell], bit) = cost;
+}
+
+void BlockStore::forget_costs_at_clamp(Block& block) {
+  if (block.costs == 0) return;
+  BlockCosts& costs = block_costs_[block.costs - 1];
+  std::uint64_t any = 0;
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    const std::uint64_t left = costs.costed[cell] & ~block.clamped_free[cell];
+    any |= left;
+    if (left == costs.costed[cell]) continue;
+    std::array<FusedCost, 64> values{};
+    costs_.unpack(costs.values[cell], costs.costed[cell], values);
+    costs.costed[cell] = left;
+    costs.values[cell] = costs_.repack(costs.values[cell], left, values);
+  }
+  if (any != 0) return;
+  block_costs_.release(block.costs - 1);
+  block.costs = 0;
+}
+
 Block& BlockStore::materialise(BlockSlot& slot) {
   if (slot >= kFirstBlockSlot) return block(slot);
   const bool was_free = slot == kFreeBlock;
@@ -110,7 +160,8 @@ void BlockStore::collapse_if_free(BlockSlot& slot) {
 
 std::size_t BlockStore::memory_bytes() const {
   // A node and a bucket of the hash are about 32 bytes.
-  return pool_.memory_bytes() + values_.memory_bytes() + region_index_.size() * 32 +
+  return pool_.memory_bytes() + values_.memory_bytes() + block_costs_.memory_bytes() +
+         costs_.memory_bytes() + region_index_.size() * 32 +
          regions_.capacity() * sizeof(regions_[0]) + regions_.size() * sizeof(Region);
 }
 

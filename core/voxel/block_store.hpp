@@ -8,10 +8,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/voxel/cell_values.hpp"
 #include "core/voxel/chunked_pool.hpp"
 #include "core/voxel/key.hpp"
 #include "core/voxel/morton.hpp"
+#include "core/voxel/packed_cells.hpp"
+#include "core/voxel/voxel_cost.hpp"
 
 namespace warren {
 
@@ -21,6 +22,9 @@ inline constexpr std::size_t kCellsPerBlock = 8;      // of 4x4x4 voxels
 inline constexpr std::size_t kBlocksPerRegion = 512;  // of 8x8x8 voxels
 inline constexpr std::uint64_t kFullCell = ~std::uint64_t{0};
 
+using LogOddsCells = PackedCells<std::int16_t>;
+using CostCells = PackedCells<FusedCost>;
+
 // One bit per voxel and property, cells and bits in Morton order. Invariant: occupied and
 // clamped_free are disjoint parts of known; a voxel has a stored value exactly if it is known and
 // not clamped_free.
@@ -28,9 +32,17 @@ struct Block {
   std::array<std::uint64_t, kCellsPerBlock> known{};
   std::array<std::uint64_t, kCellsPerBlock> occupied{};
   std::array<std::uint64_t, kCellsPerBlock> clamped_free{};
-  std::array<CellValues::Ref, kCellsPerBlock> values{};
+  std::array<LogOddsCells::Ref, kCellsPerBlock> values{};
+  std::uint32_t costs = 0;  // index of its BlockCosts + 1; 0 if it has none
 
   std::uint64_t stored(std::size_t cell) const { return known[cell] & ~clamped_free[cell]; }
+};
+
+// The costs of a block's ground: most blocks are air and have none. Invariant: `costed` is part of
+// the voxels with a stored value, and not empty.
+struct BlockCosts {
+  std::array<std::uint64_t, kCellsPerBlock> costed{};
+  std::array<CostCells::Ref, kCellsPerBlock> values{};
 };
 
 // What a region knows of one of its blocks.
@@ -72,6 +84,9 @@ class BlockStore {
   // Fixed-point log-odds; nothing when unknown. `minimum` is the free clamp.
   std::optional<std::int16_t> value(const VoxelKey& key, std::int16_t minimum) const;
 
+  // The fused cost of a voxel, whatever its state; nothing when it has none.
+  std::optional<FusedCost> cost(const VoxelKey& key) const;
+
   // The block behind a slot; absent and free ones get one.
   Block& materialise(BlockSlot& slot);
   // Gives back the block's memory if every voxel is at the free clamp.
@@ -79,8 +94,15 @@ class BlockStore {
 
   Block& block(BlockSlot slot) { return pool_[slot - kFirstBlockSlot]; }
   const Block& block(BlockSlot slot) const { return pool_[slot - kFirstBlockSlot]; }
-  CellValues& values() { return values_; }
-  const CellValues& values() const { return values_; }
+  // Gives one voxel of the block its first cost, or another.
+  void set_cost(Block& block, std::uint32_t place, const FusedCost& cost);
+  // Nothing when the voxel at this place in the block (Morton code) has none.
+  std::optional<FusedCost> cost(const Block& block, std::uint32_t place) const;
+  // Voxels at the free clamp keep no cost: what stood there has gone.
+  void forget_costs_at_clamp(Block& block);
+
+  LogOddsCells& values() { return values_; }
+  const LogOddsCells& values() const { return values_; }
 
   // Blocks that are held: absent and free ones are not.
   std::uint32_t block_count() const { return pool_.in_use(); }
@@ -97,7 +119,9 @@ class BlockStore {
   std::unordered_map<std::uint64_t, std::uint32_t> region_index_;
   std::vector<std::unique_ptr<Region>> regions_;
   ChunkedPool<Block, 64> pool_;
-  CellValues values_;
+  LogOddsCells values_;
+  ChunkedPool<BlockCosts, 64> block_costs_;
+  CostCells costs_;
 };
 
 }  // namespace warren

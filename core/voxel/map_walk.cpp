@@ -30,6 +30,12 @@ void for_each_block(const BlockStore& store, const KeyBox& box, Visit&& visit) {
   }
 }
 
+std::uint64_t& count_for(CostCounts& counts, const std::optional<FusedCost>& cost) {
+  if (!cost) return counts.no_data;
+  if (cost->cost * 10 <= FusedCost::kImpossible) return counts.up_to_0p10;
+  return cost->cost * 5 <= FusedCost::kImpossible ? counts.up_to_0p20 : counts.above_0p20;
+}
+
 VoxelKey voxel_in_block(const BlockKey& block, std::uint32_t place) {
   const VoxelKey first = first_voxel_of(block);
   const VoxelKey inside = place_of_morton9(place);
@@ -78,6 +84,20 @@ MapCounts SelfMap::counts() const {
       const std::uint64_t free = block.known[cell] & ~block.occupied[cell];
       counts.free += static_cast<std::uint64_t>(std::popcount(free));
       counts.occupied += static_cast<std::uint64_t>(std::popcount(block.occupied[cell]));
+    }
+  });
+  return counts;
+}
+
+CostCounts SelfMap::cost_counts() const {
+  CostCounts counts;
+  for_each_block(store_, KeyBox{}, [&](const BlockKey&, BlockSlot slot) {
+    if (slot == kFreeBlock) return;
+    const Block& block = store_.block(slot);
+    for (std::uint32_t cell = 0; cell < kCellsPerBlock; ++cell) {
+      for_each_bit(block.occupied[cell], [&](std::uint32_t bit) {
+        ++count_for(counts, store_.cost(block, cell << 6 | bit));
+      });
     }
   });
   return counts;

@@ -16,7 +16,7 @@ struct CellMarks {
 
 // Whether any value of the cell changed.
 bool commit_cell(Block& block, std::size_t cell, const CellMarks& marks,
-                 const FixedSensorModel& model, CellValues& store) {
+                 const FixedSensorModel& model, LogOddsCells& store) {
   std::array<std::int16_t, 64> values{};
   store.unpack(block.values[cell], block.stored(cell), values);
   // Values of voxels at the clamp are not stored; only a hit can move them.
@@ -70,6 +70,7 @@ CommitCounts commit_marks(const ScanMarker& marker, const FixedSensorModel& mode
       counts.voxels_passed += static_cast<std::uint64_t>(std::popcount(marks.pass));
       changed |= commit_cell(block, cell, marks, model, store.values());
     }
+    store.forget_costs_at_clamp(block);
     store.collapse_if_free(slot);
     if (!changed) continue;
     region.changed_at[marked.slot] = scan;

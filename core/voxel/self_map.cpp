@@ -110,6 +110,7 @@ SelfMap::SelfMap(const SelfMapConfig& config)
     : config_(config),
       lattice_(config.resolution_m),
       model_(config.sensor_model),
+      cost_fusion_(config.cost_fusion),
       scratch_(std::make_unique<Scratch>(lattice_)) {
   assert(config.resolution_m > 0.0 && config.sensor_model.is_valid());
 }
@@ -122,6 +123,7 @@ SelfMap::SelfMap(const SelfMap& other)
     : config_(other.config_),
       lattice_(other.lattice_),
       model_(other.model_),
+      cost_fusion_(other.cost_fusion_),
       store_(other.store_),
       scratch_(std::make_unique<Scratch>(lattice_)),
       scans_(other.scans_) {}
@@ -159,6 +161,10 @@ IntegrationReport SelfMap::integrate(const LayerScan& scan) {
   return report;
 }
 
+CostFusionReport SelfMap::fuse_costs(std::span<const VoxelCost> costs) {
+  return commit_costs(costs, cost_fusion_, model_, scans_, store_);
+}
+
 VoxelState SelfMap::state(const VoxelKey& key) const { return store_.state(key); }
 
 VoxelState SelfMap::state(const Point3f& point_layer) const {
@@ -170,6 +176,17 @@ std::optional<float> SelfMap::log_odds(const VoxelKey& key) const {
   const auto steps = store_.value(key, model_.minimum);
   if (!steps) return std::nullopt;
   return model_.log_odds(*steps);
+}
+
+std::optional<FusedCost> SelfMap::fused_cost(const VoxelKey& key) const {
+  if (store_.state(key) != VoxelState::kOccupied) return std::nullopt;
+  return store_.cost(key);
+}
+
+std::optional<float> SelfMap::cost(const VoxelKey& key) const {
+  const auto fused = fused_cost(key);
+  if (!fused) return std::nullopt;
+  return fused->value();
 }
 
 std::vector<BlockKey> SelfMap::blocks_changed_since(std::uint32_t cursor) const {

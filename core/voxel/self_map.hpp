@@ -5,12 +5,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/voxel/block_store.hpp"
+#include "core/voxel/cost_commit.hpp"
 #include "core/voxel/key.hpp"
 #include "core/voxel/scan.hpp"
 #include "core/voxel/sensor_model.hpp"
+#include "core/voxel/voxel_cost.hpp"
 
 namespace warren {
 
@@ -19,6 +22,7 @@ struct SelfMapConfig {
   SensorModel sensor_model;
   // One ray per end voxel, to its centre: faster, not quite the same map (OctoMap's `discretize`).
   bool one_ray_per_end_voxel = false;
+  CostFusionConfig cost_fusion{};
 };
 
 struct IntegrationReport {
@@ -34,6 +38,14 @@ struct MapCounts {
   std::uint64_t free = 0;
   std::uint64_t occupied = 0;
   std::uint64_t blocks = 0;
+};
+
+// Occupied voxels by cost.
+struct CostCounts {
+  std::uint64_t no_data = 0;
+  std::uint64_t up_to_0p10 = 0;
+  std::uint64_t up_to_0p20 = 0;  // and above 0.10
+  std::uint64_t above_0p20 = 0;
 };
 
 struct RayHit {
@@ -68,10 +80,17 @@ class SelfMap {
   // numbers: what cannot be used is counted in the report.
   IntegrationReport integrate(const LayerScan& scan);
 
+  // Adds what the scan integrated last tells of its ground. Precondition: no voxel comes twice.
+  CostFusionReport fuse_costs(std::span<const VoxelCost> costs);
+
   VoxelState state(const VoxelKey& key) const;
   VoxelState state(const Point3f& point_layer) const;
   // Log-odds of occupancy; nothing when unknown.
   std::optional<float> log_odds(const VoxelKey& key) const;
+
+  // 0 easy .. 1 impossible; nothing ("no data") when the voxel is not occupied or was never judged.
+  std::optional<float> cost(const VoxelKey& key) const;
+  std::optional<FusedCost> fused_cost(const VoxelKey& key) const;
 
   // First voxel along the ray that is occupied (or unknown); nothing when there is none in range.
   // The voxel of the origin itself is looked at too.
@@ -82,12 +101,13 @@ class SelfMap {
   using VoxelVisitor = std::function<void(const VoxelKey&, VoxelState, float log_odds)>;
   void for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit) const;
 
-  // Blocks whose log-odds changed after the scan numbered `cursor`; 0 gives all. Scans are numbered
-  // from 1; cursor() is the number of the last.
+  // Blocks whose log-odds or costs changed after the scan numbered `cursor`; 0 gives all. Scans are
+  // numbered from 1; cursor() is the number of the last.
   std::vector<BlockKey> blocks_changed_since(std::uint32_t cursor) const;
   std::uint32_t cursor() const { return scans_; }
 
   MapCounts counts() const;
+  CostCounts cost_counts() const;
   // Smallest box of blocks that holds all known voxels; nothing when the map is empty.
   std::optional<KeyBox> bounds() const;
   // Heap bytes held, scratch of the integration included.
@@ -101,6 +121,7 @@ class SelfMap {
   SelfMapConfig config_;
   Lattice lattice_;
   FixedSensorModel model_;
+  CostFusion cost_fusion_;
   BlockStore store_;
   std::unique_ptr<Scratch> scratch_;
   std::uint32_t scans_ = 0;

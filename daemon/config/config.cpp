@@ -22,6 +22,20 @@ SensorModel SensorModelConfig::resolved() const {
   return model;
 }
 
+TerrainConfig TerrainSettings::resolved() const {
+  TerrainConfig config =
+      profile == TerrainProfile::kPaper ? TerrainConfig::paper() : TerrainConfig::robust();
+  config.cost.saturation = static_cast<float>(saturation);
+  return config;
+}
+
+SelfMapConfig Config::self_map() const {
+  SelfMapConfig config{
+      map.resolution_m, map.sensor_model.resolved(), map.one_ray_per_end_voxel, {}};
+  config.cost_fusion.rule = terrain.fusion;
+  return config;
+}
+
 SensorFilter SensorConfig::filter() const {
   SensorFilter filter;
   filter.min_range_m = min_range_m;

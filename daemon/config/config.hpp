@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "core/terrain/terrain_judge.hpp"
 #include "core/voxel/scan.hpp"
 #include "core/voxel/self_map.hpp"
 #include "daemon/log.hpp"
@@ -42,14 +43,22 @@ struct SensorModelConfig {
   friend bool operator==(const SensorModelConfig&, const SensorModelConfig&) = default;
 };
 
+enum class TerrainProfile : std::uint8_t { kRobust, kPaper };
+
+struct TerrainSettings {
+  TerrainProfile profile = TerrainProfile::kRobust;
+  double saturation = 0.5;
+  CostRule fusion = CostRule::kInformation;
+
+  TerrainConfig resolved() const;
+  friend bool operator==(const TerrainSettings&, const TerrainSettings&) = default;
+};
+
 struct MapConfig {
   double resolution_m = 0.1;
   SensorModelConfig sensor_model;
   bool one_ray_per_end_voxel = false;
 
-  SelfMapConfig self_map() const {
-    return {resolution_m, sensor_model.resolved(), one_ray_per_end_voxel};
-  }
   friend bool operator==(const MapConfig&, const MapConfig&) = default;
 };
 
@@ -96,9 +105,12 @@ struct Config {
   Node node;
   Sockets sockets;
   MapConfig map;
+  TerrainSettings terrain;
   IngestConfig ingest;
   std::vector<SensorConfig> sensors{SensorConfig{}};
   LogConfig log;
+
+  SelfMapConfig self_map() const;
   friend bool operator==(const Config&, const Config&) = default;
 };
 

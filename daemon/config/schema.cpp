@@ -10,6 +10,8 @@ using namespace std::string_view_literals;
 
 constexpr std::array kRoles{"robot"sv};
 constexpr std::array kPresets{"warren"sv, "octomap"sv, "field"sv, "custom"sv};
+constexpr std::array kTerrainProfiles{"robust"sv, "paper"sv};
+constexpr std::array kCostRules{"information"sv, "paper"sv};
 constexpr std::array kLogLevels{"debug"sv, "info"sv, "warning"sv, "error"sv, "off"sv};
 constexpr std::array kLogFormats{"auto"sv, "text"sv, "journal"sv};
 
@@ -73,6 +75,27 @@ constexpr std::array kRootKeys{
     RootKey{"map.one_ray_per_end_voxel",
             "Cast one ray per end voxel, to its centre: faster, but not quite the same map.",
             Takes::kRestart, [](Config& c) -> Slot { return &c.map.one_ray_per_end_voxel; }},
+    RootKey{"terrain.profile",
+            "How the cost of ground is told. robust: slope, curvature, roughness and steps, no "
+            "data where a plane cannot be trusted; paper: slope and curvature alone.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return choice(c.terrain.profile); },
+            {},
+            kTerrainProfiles},
+    RootKey{"terrain.saturation",
+            "Sum of slope and curvature terms that counts as impossible; 1 suits short-range depth "
+            "cameras.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.terrain.saturation; },
+            {0.05, 10.0}},
+    RootKey{"terrain.fusion",
+            "How a voxel's costs of many scans become one. information: average weighted by how "
+            "much each scan can tell, follows changes; paper: the surer the voxel is occupied, "
+            "the less a new cost counts.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return choice(c.terrain.fusion); },
+            {},
+            kCostRules},
     RootKey{"ingest.queue_scans",
             "Scans that may wait for the mapping thread. When one more comes, the oldest is "
             "dropped and counted.",

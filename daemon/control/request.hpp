@@ -3,11 +3,16 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 
 #include <tl/expected.hpp>
+
+#include "core/exchange/map_picture.hpp"
+#include "core/terrain/ground.hpp"
+#include "core/voxel/scan.hpp"
 
 namespace warren {
 
@@ -18,8 +23,19 @@ struct MapInfoQuestion {};
 struct ConfigQuestion {};
 struct SaveOrder {
   std::filesystem::path path;  // absolute, without control characters
+  PictureColours colours = PictureColours::kHeight;
 };
-using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder>;
+// Where somebody wants to stand.
+struct GroundQuestion {
+  Pose T_map_base;
+  Footprint footprint;
+  std::optional<double> above_m;  // none: GroundQuery's
+  std::optional<double> below_m;
+  std::optional<Eigen::Vector3d> gravity_map;  // any length; none: that of the scan taken last
+  bool stair_capable = false;
+};
+using ControlRequest =
+    std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -22,6 +22,10 @@ void fill(const MapInfoReport::Current& current, control::MapInfo& info) {
   info.set_voxels_free(current.counts.free);
   info.set_voxels_occupied(current.counts.occupied);
   info.set_blocks(current.counts.blocks);
+  info.set_cost_no_data(current.costs.no_data);
+  info.set_cost_up_to_0p10(current.costs.up_to_0p10);
+  info.set_cost_up_to_0p20(current.costs.up_to_0p20);
+  info.set_cost_above_0p20(current.costs.above_0p20);
   add_vector(current.origin_map_m, *info.mutable_origin_map_m());
   add_pose(current.T_fleet_map, *info.mutable_t_fleet_map());
   if (!current.known) return;
@@ -100,6 +104,23 @@ std::string encode_map_saved(const std::string& path, const SaveReport& report) 
   saved.set_bytes(report.bytes);
   saved.set_voxels(report.voxels);
   saved.set_note(report.note);
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_ground(const GroundAnswer& answer) {
+  const GroundReport& report = answer.ground;
+  control::Response response;
+  auto& ground = *response.mutable_ground();
+  ground.set_columns(report.columns);
+  ground.set_columns_with_ground(report.columns_with_ground);
+  ground.set_columns_with_cost(report.columns_with_cost);
+  if (report.mean_cost) ground.set_mean_cost(*report.mean_cost);
+  if (report.max_cost) ground.set_max_cost(*report.max_cost);
+  ground.set_unknown_share(report.unknown_share);
+  ground.set_stairs_share(report.stairs_share);
+  ground.set_step_m(report.step_m);
+  ground.set_validity(name_of(answer.validity));
+  ground.set_valid(is_valid(answer.validity));
   return framed(response.SerializeAsString());
 }
 

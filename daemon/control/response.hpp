@@ -25,6 +25,7 @@ struct StatusReport {
 std::string encode_status(const StatusReport& report);
 std::string encode_map_info(const MapInfoReport& info);
 std::string encode_map_saved(const std::string& path, const SaveReport& report);
+std::string encode_ground(const GroundAnswer& answer);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);
 

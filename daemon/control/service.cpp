@@ -14,12 +14,12 @@ namespace {
 
 constexpr const char* kTooBusy = "too many questions wait for the mapping thread; try again";
 
-std::string encode_saved(const std::filesystem::path& path, const MapSaver& save_map,
+std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
                          const MapSnapshot& snapshot) {
-  const auto saved = save_map(snapshot, path);
+  const auto saved = save_map(snapshot, order.path, order.colours);
   if (!saved) return encode_error(saved.error());
-  log_info("control: saved the map to " + path.string());
-  return encode_map_saved(path.string(), *saved);
+  log_info("control: saved the map to " + order.path.string());
+  return encode_map_saved(order.path.string(), *saved);
 }
 
 }  // namespace
@@ -54,6 +54,16 @@ void ControlService::answer(const ConfigQuestion&, const Respond& respond) {
   respond(encode_config(print_config(parts_.config)));
 }
 
+void ControlService::answer(const GroundQuestion& question, const Respond& respond) {
+  const bool asked = parts_.mapper.ask_ground(
+      question, [this, respond, guard = asio::make_work_guard(parts_.io)](const auto& result) {
+        asio::post(parts_.io,
+                   [respond, frame = result ? encode_ground(*result)
+                                            : encode_error(result.error())] { respond(frame); });
+      });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
 void ControlService::answer(const SaveOrder& order, const Respond& respond) {
   if (pending_saves_ >= kMaxPendingSaves) {
     return respond(encode_error("busy writing other files; try again"));
@@ -74,8 +84,8 @@ void ControlService::answer(const SaveOrder& order, const Respond& respond) {
 void ControlService::save(const SaveOrder& order,
                           const std::shared_ptr<const MapSnapshot>& snapshot,
                           const Respond& respond) {
-  std::string frame = snapshot ? encode_saved(order.path, parts_.save_map, *snapshot)
-                               : encode_error("there is no map yet: no scan has been taken");
+  std::string frame =
+      snapshot ? encode_saved(order, parts_.save_map, *snapshot) : encode_error(kNoMapYet);
   asio::post(parts_.io, [respond, frame = std::move(frame)] { respond(frame); });
 }
 

@@ -16,8 +16,8 @@
 
 namespace warren {
 
-using MapSaver = std::function<tl::expected<SaveReport, std::string>(const MapSnapshot&,
-                                                                     const std::filesystem::path&)>;
+using MapSaver = std::function<tl::expected<SaveReport, std::string>(
+    const MapSnapshot&, const std::filesystem::path&, PictureColours)>;
 
 // Answers control requests: asks the mapping thread, writes files on a worker of its own.
 class ControlService {
@@ -48,6 +48,7 @@ class ControlService {
   void answer(const MapInfoQuestion& question, const Respond& respond);
   void answer(const ConfigQuestion& question, const Respond& respond);
   void answer(const SaveOrder& order, const Respond& respond);
+  void answer(const GroundQuestion& question, const Respond& respond);
   void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,
             const Respond& respond);
   StatusReport status(MapperStatus mapper) const;

@@ -19,12 +19,18 @@ Eigen::Vector3d corner_map_m(const Layer& layer, const VoxelKey& key, double res
          Eigen::Vector3d(key.x, key.y, key.z) * resolution_m;
 }
 
-// A scan's gravity becomes a unit vector; false when it is no direction.
-bool normalise_gravity(Scan& scan) {
-  const double length = scan.gravity_map.stableNorm();
+// Makes it a unit vector; false when it is no direction.
+bool normalise(Eigen::Vector3d& gravity) {
+  const double length = gravity.stableNorm();
   if (!std::isfinite(length) || length == 0.0) return false;
-  scan.gravity_map /= length;
-  return scan.gravity_map.allFinite();
+  gravity /= length;
+  return gravity.allFinite();
+}
+
+// Layer and map frame differ by a shift alone.
+Point3f in_layer(const Eigen::Vector3d& direction_map) {
+  return {static_cast<float>(direction_map.x()), static_cast<float>(direction_map.y()),
+          static_cast<float>(direction_map.z())};
 }
 
 MapInfoReport::Current info_of(const Layer& layer, double resolution_m) {
@@ -32,6 +38,7 @@ MapInfoReport::Current info_of(const Layer& layer, double resolution_m) {
   info.frame_epoch = layer.frame_epoch;
   info.scans = layer.scans;
   info.counts = layer.voxels.counts();
+  info.costs = layer.voxels.cost_counts();
   info.origin_map_m = layer.origin.position_map(resolution_m);
   info.T_fleet_map = layer.T_fleet_map;
   if (const auto box = layer.voxels.bounds()) {
@@ -51,7 +58,7 @@ tl::unexpected<std::string> LayeredMap::reject(Rejection reason) {
 
 tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::uint64_t frame_epoch,
                                                                const SensorFilter& filter) {
-  if (!normalise_gravity(scan)) return reject(Rejection::kBadGravity);
+  if (!normalise(scan.gravity_map)) return reject(Rejection::kBadGravity);
   const auto layer = layer_for(scan, frame_epoch);
   if (!layer) return tl::unexpected(layer.error());
   Layer& into = **layer;
@@ -60,8 +67,10 @@ tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::u
   const auto prepared =
       preparer_.prepare(scan, filter, into.origin, config_.resolution_m, rejected);
   if (!prepared) return reject(Rejection::kOriginOutsideKeySpace);
-  const IntegrationReport report = into.voxels.integrate(*prepared);
+  const IntegrationReport report =
+      pipeline_.run(*prepared, in_layer(scan.gravity_map), into.voxels).integration;
   ++into.scans;
+  into.gravity_map = scan.gravity_map;
 
   for (std::size_t i = 0; i < kRejectionCount; ++i)
     rejected_[i] += rejected[i] + report.rejected[i];
@@ -92,8 +101,8 @@ tl::expected<Layer*, std::string> LayeredMap::open_layer(const Scan& scan,
   }
   // A copy leaves the scratch memory of integration behind: frozen layers need none.
   if (!layers_.empty()) layers_.back()->voxels = SelfMap(layers_.back()->voxels);
-  layers_.push_back(
-      std::make_unique<Layer>(Layer{frame_epoch, *origin, SelfMap(config_), 0, Pose{}}));
+  layers_.push_back(std::make_unique<Layer>(
+      Layer{frame_epoch, *origin, SelfMap(config_), 0, Pose{}, scan.gravity_map}));
   return layers_.back().get();
 }
 
@@ -112,6 +121,28 @@ MapInfoReport LayeredMap::info() const {
   for (const auto& layer : layers_) info.memory_bytes += layer->voxels.memory_bytes();
   if (const Layer* const layer = current()) info.current = info_of(*layer, config_.resolution_m);
   return info;
+}
+
+tl::expected<GroundAnswer, std::string> LayeredMap::ground(const GroundQuestion& question) const {
+  const Layer* const layer = current();
+  if (layer == nullptr) return tl::unexpected(std::string(kNoMapYet));
+  const auto T_map_base = question.T_map_base.checked();
+  if (!T_map_base) return tl::unexpected(std::string("the pose is not rigid or not finite"));
+  GroundQuery query;
+  query.T_layer_base = *T_map_base;
+  query.T_layer_base.translation() -= layer->origin.position_map(config_.resolution_m);
+  query.footprint = question.footprint;
+  query.gravity = question.gravity_map.value_or(layer->gravity_map);
+  query.above_m = question.above_m.value_or(query.above_m);
+  query.below_m = question.below_m.value_or(query.below_m);
+  if (!normalise(query.gravity) || !query.is_valid(config_.resolution_m)) {
+    return tl::unexpected(std::string(
+        "the footprint, reach or gravity make no sense, or the footprint has too many voxels"));
+  }
+  GroundAnswer answer;
+  answer.ground = warren::ground(SelfMapView(layer->voxels), query);
+  answer.validity = validity(answer.ground, question.stair_capable);
+  return answer;
 }
 
 std::shared_ptr<const MapSnapshot> LayeredMap::snapshot() const {

@@ -10,10 +10,20 @@
 #include <tl/expected.hpp>
 
 #include "core/exchange/map_snapshot.hpp"
+#include "core/terrain/ground.hpp"
+#include "core/terrain/scan_pipeline.hpp"
 #include "core/voxel/self_map.hpp"
+#include "daemon/control/request.hpp"
 #include "daemon/ingest/messages.hpp"
 
 namespace warren {
+
+inline constexpr const char* kNoMapYet = "there is no map yet: no scan has been taken";
+
+struct MappingConfig {
+  SelfMapConfig map;
+  TerrainConfig terrain = TerrainConfig::robust();
+};
 
 // What was mapped in one frame epoch.
 struct Layer {
@@ -22,6 +32,7 @@ struct Layer {
   SelfMap voxels;
   std::uint64_t scans = 0;
   Pose T_fleet_map;
+  Eigen::Vector3d gravity_map{0.0, 0.0, -1.0};  // of the scan taken last
 };
 
 // The current layer and where it lies, in numbers.
@@ -33,6 +44,7 @@ struct MapInfoReport {
     std::uint64_t frame_epoch = 0;
     std::uint64_t scans = 0;
     MapCounts counts;
+    CostCounts costs;
     Eigen::Vector3d origin_map_m = Eigen::Vector3d::Zero();
     struct Box {
       Eigen::Vector3d low_map_m;
@@ -44,6 +56,11 @@ struct MapInfoReport {
   std::optional<Current> current;  // nothing before the first scan
 };
 
+struct GroundAnswer {
+  GroundReport ground;
+  Validity validity = Validity::kUnknown;
+};
+
 // Layers by frame epoch. An epoch that is met for the first time opens a layer around its first
 // pose and freezes those before it; only a scan with a usable pose can do that. One thread.
 class LayeredMap {
@@ -51,7 +68,8 @@ class LayeredMap {
   // Memory grows with every layer, and a client could name a new epoch in every scan.
   static constexpr std::size_t kMaxLayers = 256;
 
-  explicit LayeredMap(const SelfMapConfig& config) : config_(config) {}
+  explicit LayeredMap(const MappingConfig& config)
+      : config_(config.map), pipeline_(config.terrain) {}
 
   // Points used; or why the scan as a whole was not, in words for the client.
   tl::expected<std::uint64_t, std::string> integrate(Scan scan, std::uint64_t frame_epoch,
@@ -65,6 +83,8 @@ class LayeredMap {
   // Counts a scan that is not integrated; gives the reason's name.
   tl::unexpected<std::string> reject(Rejection reason);
   MapInfoReport info() const;
+  // In the current layer; or why there is no answer, in words for the client.
+  tl::expected<GroundAnswer, std::string> ground(const GroundQuestion& question) const;
   // A copy of the current layer; nothing before the first scan.
   std::shared_ptr<const MapSnapshot> snapshot() const;
 
@@ -75,6 +95,7 @@ class LayeredMap {
   SelfMapConfig config_;
   std::vector<std::unique_ptr<Layer>> layers_;  // the last is the current one
   ScanPreparer preparer_;
+  ScanPipeline pipeline_;
   RejectionCounts rejected_{};
 };
 

@@ -16,7 +16,7 @@ double thread_cpu_ms() {
 
 }  // namespace
 
-Mapper::Mapper(const SelfMapConfig& config, SensorFilters filters, std::size_t queue_scans,
+Mapper::Mapper(const MappingConfig& config, SensorFilters filters, std::size_t queue_scans,
                Dependencies dependencies)
     : dependencies_(std::move(dependencies)),
       queue_(queue_scans),
@@ -52,6 +52,11 @@ bool Mapper::ask_status(std::function<void(MapperStatus)> answer) {
 
 bool Mapper::ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer) {
   return ask([this, answer = std::move(answer)] { answer(map_.snapshot()); });
+}
+
+bool Mapper::ask_ground(const GroundQuestion& question,
+                        std::function<void(const GroundResult&)> answer) {
+  return ask([this, question, answer = std::move(answer)] { answer(map_.ground(question)); });
 }
 
 bool Mapper::ask(std::function<void()> question) {

@@ -44,7 +44,7 @@ class Mapper {
     std::function<void()> before_scan = [] {};  // tests hold the thread here
   };
 
-  Mapper(const SelfMapConfig& config, SensorFilters filters, std::size_t queue_scans,
+  Mapper(const MappingConfig& config, SensorFilters filters, std::size_t queue_scans,
          Dependencies dependencies);
   // Integrates what is queued first.
   ~Mapper();
@@ -61,6 +61,9 @@ class Mapper {
   // These come before the scans that wait. False as above.
   [[nodiscard]] bool ask_status(std::function<void(MapperStatus)> answer);
   [[nodiscard]] bool ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer);
+  using GroundResult = tl::expected<GroundAnswer, std::string>;
+  [[nodiscard]] bool ask_ground(const GroundQuestion& question,
+                                std::function<void(const GroundResult&)> answer);
   void set_filters(SensorFilters filters);
   void set_queue_capacity(std::size_t scans);
 

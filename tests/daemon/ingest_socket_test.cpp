@@ -259,26 +259,6 @@ TEST_CASE("a client that ends its side still gets every receipt") {
   while (daemon.status().clients() > 0) std::this_thread::yield();
 }
 
-TEST_CASE("status is answered while a pose update waits for scans") {
-  RunningDaemon daemon;
-  daemon.gate().shut();
-  TestClient client = greeted_client(daemon.ingest_socket());
-  REQUIRE(client.write(scan_frame(1) + scan_frame(2) + pose_update_frame(1, 3.0)));
-  daemon.gate().wait_until_somebody_waits();
-  TestClient asker(daemon.control_socket());
-  control::Request status;
-  status.mutable_status();
-  REQUIRE(asker.write(framed(status.SerializeAsString())));
-  daemon.gate().let_one_pass();  // scan 2 is held now; the pose update waits for it
-  control::Response response;
-  REQUIRE(response.ParseFromString(asker.read_frame().value()));
-  CHECK(response.status().map().scans() <= 1);
-  daemon.gate().open();
-  CHECK(client.read_receipt().sequence() == 1);
-  CHECK(client.read_receipt().sequence() == 2);
-  CHECK(client.read_reply()->pose_updated().applied());
-}
-
 TEST_CASE("a client that never reads its receipts goes on being mapped") {
   RunningDaemon daemon;
   TestClient deaf = greeted_client(daemon.ingest_socket());

@@ -20,7 +20,7 @@ Scan scan_at(double x_m) {
 }  // namespace
 
 TEST_CASE("the first scan opens a layer around its pose") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   CHECK(map.snapshot() == nullptr);
   CHECK_FALSE(map.info().current.has_value());
   CHECK(map.integrate(scan_at(1000.0), 7, {}) == 1);
@@ -35,7 +35,7 @@ TEST_CASE("the first scan opens a layer around its pose") {
 }
 
 TEST_CASE("a new epoch opens a layer, the old one is over") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   CHECK(map.integrate(scan_at(0.0), 5, {}).has_value());
   CHECK(map.integrate(scan_at(0.0), 3, {}).has_value());
   CHECK(map.layer_count() == 2);
@@ -47,7 +47,7 @@ TEST_CASE("a new epoch opens a layer, the old one is over") {
 }
 
 TEST_CASE("a scan with an unusable pose opens no layer and is counted") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   Scan scan = scan_at(kNan);
   CHECK(map.integrate(scan, 1, {}).error() == "bad_pose");
   scan = scan_at(0.0);
@@ -63,7 +63,7 @@ TEST_CASE("a scan with an unusable pose opens no layer and is counted") {
 }
 
 TEST_CASE("gravity must be a direction") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   for (const double z : {0.0, kNan, std::numeric_limits<double>::infinity()}) {
     Scan scan = scan_at(0.0);
     scan.gravity_map = {0.0, 0.0, z};
@@ -75,7 +75,7 @@ TEST_CASE("gravity must be a direction") {
 }
 
 TEST_CASE("points that cannot be used are counted and the others used") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   Scan scan = scan_at(0.0);
   scan.points_sensor.push_back({std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F});
   scan.points_sensor.push_back({0.1F, 0.0F, 0.0F});
@@ -88,7 +88,7 @@ TEST_CASE("points that cannot be used are counted and the others used") {
 }
 
 TEST_CASE("a pose update moves the current epoch only") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   PoseUpdateMessage update{1, {}};
   update.T_fleet_map.translation = {1.0, 2.0, 3.0};
   CHECK_FALSE(map.update_pose(update));
@@ -104,7 +104,7 @@ TEST_CASE("a pose update moves the current epoch only") {
 }
 
 TEST_CASE("epochs without end do not take memory without end") {
-  LayeredMap map(SelfMapConfig{});
+  LayeredMap map(MappingConfig{});
   for (std::uint64_t epoch = 0; epoch < LayeredMap::kMaxLayers; ++epoch) {
     CHECK(map.integrate(scan_at(0.0), epoch, {}).has_value());
   }

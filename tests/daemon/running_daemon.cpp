@@ -16,18 +16,11 @@ void Gate::open() {
   changed_.notify_all();
 }
 
-void Gate::let_one_pass() {
-  const std::lock_guard lock(mutex_);
-  ++permits_;
-  changed_.notify_all();
-}
-
 void Gate::pass() {
   std::unique_lock lock(mutex_);
   somebody_waits_ = true;
   changed_.notify_all();
-  changed_.wait(lock, [this] { return is_open_ || permits_ > 0; });
-  if (permits_ > 0) --permits_;
+  changed_.wait(lock, [this] { return is_open_; });
   somebody_waits_ = false;
 }
 

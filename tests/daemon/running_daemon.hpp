@@ -19,7 +19,6 @@ class Gate {
  public:
   void shut();
   void open();
-  void let_one_pass();
   void pass();  // for the mapping thread
   void wait_until_somebody_waits();
 
@@ -28,7 +27,6 @@ class Gate {
   std::condition_variable changed_;
   bool is_open_ = true;
   bool somebody_waits_ = false;
-  int permits_ = 0;
 };
 
 // The whole daemon but main(), on a thread of this process, with sockets in a directory of its own.

@@ -14,10 +14,22 @@ struct RawSource {
   std::size_t most_scans = 0;
 };
 
+struct RawMap {
+  std::string sensor_model = "default";
+  SelfMapConfig config;
+};
+
 struct RawIntegrate {
   RawSource source;
-  std::string sensor_model = "default";
-  IntegrateOptions options;
+  RawMap map;
+  int growth_copies = 0;
+  bool json = false;
+};
+
+struct RawPipeline {
+  RawSource source;
+  RawMap map;
+  std::string profile = PipelineOptions{}.profile;
   bool json = false;
 };
 
@@ -42,17 +54,30 @@ void add_source(CLI::App& app, RawSource& raw, const char* max_range_help) {
   app.add_option("--scans", raw.most_scans, "at most so many; 0: all")->capture_default_str();
 }
 
-void add_options(CLI::App& app, RawIntegrate& raw) {
-  add_source(app, raw.source, "m; 0: no limit");
-  app.add_option("--resolution", raw.options.map.resolution_m, "edge of a voxel, m")
+void add_map(CLI::App& app, RawMap& raw) {
+  app.add_option("--resolution", raw.config.resolution_m, "edge of a voxel, m")
       ->check(CLI::Range(0.001, 10.0))
       ->capture_default_str();
   app.add_option("--sensor-model", raw.sensor_model, "default (OctoMap's) or field")
       ->check(CLI::IsMember({"default", "field"}))
       ->capture_default_str();
-  app.add_flag("--one-ray-per-end-voxel", raw.options.map.one_ray_per_end_voxel,
+  app.add_flag("--one-ray-per-end-voxel", raw.config.one_ray_per_end_voxel,
                "both sides with one ray per end voxel (OctoMap's discretize)");
-  app.add_option("--growth-copies", raw.options.growth_copies,
+}
+
+void add_options(CLI::App& app, RawPipeline& raw) {
+  add_source(app, raw.source, "m; 0: no limit");
+  add_map(app, raw.map);
+  app.add_option("--profile", raw.profile, "of the terrain: paper or robust")
+      ->check(CLI::IsMember({"paper", "robust"}))
+      ->capture_default_str();
+  app.add_flag("--json", raw.json, "one JSON object instead of text");
+}
+
+void add_options(CLI::App& app, RawIntegrate& raw) {
+  add_source(app, raw.source, "m; 0: no limit");
+  add_map(app, raw.map);
+  app.add_option("--growth-copies", raw.growth_copies,
                  "also measure our cost in a map of so many copies of the scene")
       ->check(CLI::Range(0, 24))
       ->capture_default_str();
@@ -98,11 +123,25 @@ std::optional<double> max_range_of(const RawSource& raw) {
   return raw.max_range_m > 0.0 ? std::optional(raw.max_range_m) : std::nullopt;
 }
 
-IntegrateCommand resolve(const RawIntegrate& raw) {
-  IntegrateCommand command{source_of(raw.source), raw.options, max_range_of(raw.source), raw.json};
-  command.options.map.sensor_model =
+SelfMapConfig map_config_of(const RawMap& raw) {
+  SelfMapConfig config = raw.config;
+  config.sensor_model =
       raw.sensor_model == "field" ? SensorModel::field() : SensorModel::octomap_default();
-  return command;
+  return config;
+}
+
+IntegrateCommand resolve(const RawIntegrate& raw) {
+  return {source_of(raw.source),
+          {map_config_of(raw.map), raw.growth_copies},
+          max_range_of(raw.source),
+          raw.json};
+}
+
+PipelineCommand resolve(const RawPipeline& raw) {
+  return {source_of(raw.source),
+          {map_config_of(raw.map), raw.profile},
+          max_range_of(raw.source),
+          raw.json};
 }
 
 TerrainCommand resolve(const RawTerrain& raw) {
@@ -129,15 +168,19 @@ Command parse_command_line(int argc, char** argv) {
   RawIntegrate integrate;
   RawMapQuality map_quality;
   RawTerrain terrain;
+  RawPipeline pipeline;
   CLI::App* const integrate_app =
       app.add_subcommand("integrate", "scans into a map, beside OctoMap");
   CLI::App* const map_quality_app =
       app.add_subcommand("map-quality", "maps of simulated worlds against the truth");
   CLI::App* const terrain_app =
       app.add_subcommand("terrain", "scans into costs of the ground, beside PCL");
+  CLI::App* const pipeline_app = app.add_subcommand(
+      "pipeline", "scans into a map with costs, beside PCL and OctoMap together");
   add_options(*integrate_app, integrate);
   add_options(*map_quality_app, map_quality);
   add_options(*terrain_app, terrain);
+  add_options(*pipeline_app, pipeline);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -145,6 +188,7 @@ Command parse_command_line(int argc, char** argv) {
   }
   if (map_quality_app->parsed()) return resolve(map_quality);
   if (terrain_app->parsed()) return resolve(terrain);
+  if (pipeline_app->parsed()) return resolve(pipeline);
   return resolve(integrate);
 }
 

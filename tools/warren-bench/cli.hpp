@@ -6,6 +6,7 @@
 
 #include "tools/warren-bench/integrate.hpp"
 #include "tools/warren-bench/map_quality.hpp"
+#include "tools/warren-bench/pipeline_bench.hpp"
 
 namespace warren {
 
@@ -24,11 +25,18 @@ struct TerrainCommand {
   std::optional<double> max_range_m;
   bool json = false;
 };
+struct PipelineCommand {
+  SequenceSource source;
+  PipelineOptions options;
+  std::optional<double> max_range_m;
+  bool json = false;
+};
 struct ExitCommand {  // help was printed (0), or the line was wrong (2)
   int code = 0;
 };
 
-using Command = std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, ExitCommand>;
+using Command =
+    std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, PipelineCommand, ExitCommand>;
 Command parse_command_line(int argc, char** argv);
 
 }  // namespace warren

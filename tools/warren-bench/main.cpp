@@ -50,6 +50,17 @@ int execute(const TerrainCommand& command) {
   return 0;
 }
 
+int execute(const PipelineCommand& command) {
+  const auto sequence =
+      load_sequence(command.source, command.options.map.resolution_m, command.max_range_m);
+  if (!sequence) return fail(sequence.error());
+  const auto result = bench_pipeline(*sequence, command.options);
+  const std::string text =
+      command.json ? to_json(result, command.options, command.max_range_m) + "\n" : to_text(result);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
 int execute(const ExitCommand& command) { return command.code; }
 
 }  // namespace

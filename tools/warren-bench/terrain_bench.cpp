@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tools/warren-bench/cpu_clock.hpp"
 #include "tools/warren-bench/pcl_terrain_peer.hpp"
+#include "tools/warren-bench/stopwatch.hpp"
 
 namespace warren {
 namespace {
@@ -27,23 +27,6 @@ std::vector<Point3f> points_of(const ReducedCloud& cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) points.push_back(cloud.point(i));
   return points;
 }
-
-class Stopwatch {
- public:
-  template <typename Work>
-  auto time(Work&& work) {
-    const double start = thread_cpu_s();
-    auto result = work();
-    seconds_ += thread_cpu_s() - start;
-    return result;
-  }
-  double ms_per(std::size_t count) const {
-    return count == 0 ? 0.0 : 1e3 * seconds_ / static_cast<double>(count);
-  }
-
- private:
-  double seconds_ = 0.0;
-};
 
 // Buffers grow once in a daemon's life, not once in a benchmark of one scan.
 void warm_up(const ScanSequence& sequence, TerrainJudge& paper, TerrainJudge& robust) {

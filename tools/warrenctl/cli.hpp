@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -15,6 +17,18 @@ struct MapInfoCommand {
 };
 struct MapSaveCommand {
   std::filesystem::path file;
+  bool shows_cost = false;  // of a picture
+};
+struct GroundCommand {
+  std::array<double, 3> position_map_m{};
+  double yaw_deg = 0.0;
+  std::optional<std::array<double, 4>> rotation;  // qx qy qz qw; none: by yaw
+  double length_m = 1.0;
+  double width_m = 0.7;
+  std::optional<double> above_m;
+  std::optional<double> below_m;
+  bool stair_capable = false;
+  bool json = false;
 };
 struct ConfigCheckCommand {
   std::filesystem::path file;
@@ -25,8 +39,8 @@ struct ConfigPrintCommand {
 struct ExitCommand {  // all is said: help, version, or wrong usage
   int code = 0;
 };
-using CtlCommand = std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, ConfigCheckCommand,
-                                ConfigPrintCommand, ExitCommand>;
+using CtlCommand = std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand,
+                                ConfigCheckCommand, ConfigPrintCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

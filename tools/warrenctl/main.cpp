@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
 #include <csignal>
 #include <iostream>
+#include <numbers>
 
 #include "daemon/config_commands.hpp"
 #include "tools/warrenctl/ask.hpp"
@@ -26,6 +29,21 @@ int ask_and_show(const std::string& socket, const control::Request& request, con
   return 0;
 }
 
+control::Request request_of(const GroundCommand& command) {
+  control::Request request;
+  auto& ground = *request.mutable_ground();
+  for (const double coordinate : command.position_map_m) ground.add_t_map_base(coordinate);
+  const double half_yaw_rad = command.yaw_deg * std::numbers::pi / 360.0;
+  const std::array<double, 4> by_yaw{0.0, 0.0, std::sin(half_yaw_rad), std::cos(half_yaw_rad)};
+  for (const double q : command.rotation.value_or(by_yaw)) ground.add_t_map_base(q);
+  ground.set_length_m(command.length_m);
+  ground.set_width_m(command.width_m);
+  ground.set_stair_capable(command.stair_capable);
+  if (command.above_m) ground.set_above_m(*command.above_m);
+  if (command.below_m) ground.set_below_m(*command.below_m);
+  return request;
+}
+
 struct Executor {
   const std::string& socket;
 
@@ -47,8 +65,14 @@ struct Executor {
     control::Request request;
     // The daemon's working directory is another one.
     request.mutable_map_save()->set_path(std::filesystem::absolute(command.file).string());
+    if (command.shows_cost) request.mutable_map_save()->set_colours(control::COST);
     return ask_and_show(socket, request, [](const control::Response& response) {
       return sentence_of(response.map_saved());
+    });
+  }
+  int operator()(const GroundCommand& command) const {
+    return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
+      return command.json ? json_of(response.ground()) : table_of(response.ground());
     });
   }
   int operator()(const ConfigCheckCommand& command) const {

@@ -87,6 +87,10 @@ std::string table_of(const control::MapInfo& info) {
   label(out, "scans in the map") << info.scans() << "\n";
   label(out, "voxels") << info.voxels_occupied() << " occupied, " << info.voxels_free()
                        << " free\n";
+  label(out, "cost of occupied") << info.cost_up_to_0p10() << " up to 0.10, "
+                                 << info.cost_up_to_0p20() << " up to 0.20, "
+                                 << info.cost_above_0p20() << " above, " << info.cost_no_data()
+                                 << " no data\n";
   label(out, "blocks") << info.blocks() << "\n";
   label(out, "memory") << std::fixed << std::setprecision(1)
                        << static_cast<double>(info.memory_bytes()) / kBytesPerMegabyte << " MB\n";
@@ -95,6 +99,28 @@ std::string table_of(const control::MapInfo& info) {
   label(out, "known from, m") << listed(info.low_map_m(), 1) << "\n";
   label(out, "known to, m") << listed(info.high_map_m(), 1) << "\n";
   label(out, "map in fleet") << listed(info.t_fleet_map(), 3) << " (x y z m, qx qy qz qw)\n";
+  return out.str();
+}
+
+std::string table_of(const control::Ground& ground) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(3);
+  const auto cost = [&](const char* name, bool known, double value) {
+    label(out, name);
+    if (known) {
+      out << value << "\n";
+    } else {
+      out << "no data\n";
+    }
+  };
+  label(out, "validity") << ground.validity() << "\n";
+  cost("mean cost", ground.has_mean_cost(), ground.mean_cost());
+  cost("max cost", ground.has_max_cost(), ground.max_cost());
+  label(out, "unknown") << ground.unknown_share() << " of the footprint\n";
+  label(out, "stairs") << ground.stairs_share() << " of the footprint\n";
+  label(out, "step") << ground.step_m() << " m\n";
+  label(out, "columns") << ground.columns() << ", " << ground.columns_with_ground()
+                        << " with ground, " << ground.columns_with_cost() << " with a cost\n";
   return out.str();
 }
 

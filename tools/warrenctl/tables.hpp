@@ -4,6 +4,7 @@
 #include <string>
 
 namespace warren::control {
+class Ground;
 class MapInfo;
 class MapSaved;
 class Status;
@@ -18,6 +19,7 @@ namespace warren {
 // Aligned text for people.
 std::string table_of(const control::Status& status);
 std::string table_of(const control::MapInfo& info);
+std::string table_of(const control::Ground& ground);
 std::string sentence_of(const control::MapSaved& saved);
 // Every field, by its name in the .proto; 64-bit integers are strings, as protobuf's JSON has them.
 std::string json_of(const google::protobuf::Message& message);

@@ -62,6 +62,39 @@ TEST_CASE("a map becomes a picture, the same each time") {
   CHECK(picture.colours() > 500);
 }
 
+TEST_CASE("a picture of costs is black where ground is easy, white where hard, red without data") {
+  const TemporaryFolder folder;
+  MapSnapshot map{LayerOrigin{}, room_map(0.1)};
+  const auto red_pixels = [&] {
+    REQUIRE(save_map(map, folder / "cost.png", PictureColours::kCost));
+    const Picture picture = read_png(folder / "cost.png");
+    std::size_t red = 0;
+    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+      red += picture.rgb[i] > 100 && picture.rgb[i + 1] < picture.rgb[i] / 2 ? 1 : 0;
+    }
+    return red;
+  };
+  const std::size_t all_unknown = red_pixels();
+  CHECK(all_unknown > 50000);
+  std::vector<VoxelCost> costs;
+  map.voxels.for_each_known_voxel({}, [&](const VoxelKey& key, VoxelState state, float) {
+    if (state == VoxelState::kOccupied) costs.push_back({key, key.x < 0 ? 0.0F : 1.0F, 1.0F});
+  });
+  map.voxels.fuse_costs(costs);
+  CHECK(red_pixels() < 1000);  // the legend's
+  const Picture picture = read_png(folder / "cost.png");
+  std::size_t black = 0;
+  std::size_t white = 0;
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    const bool is_grey =
+        picture.rgb[i] == picture.rgb[i + 1] && picture.rgb[i] == picture.rgb[i + 2];
+    black += is_grey && picture.rgb[i] < 10 ? 1 : 0;
+    white += is_grey && picture.rgb[i] > 200 ? 1 : 0;
+  }
+  CHECK(black > 20000);
+  CHECK(white > 20000);
+}
+
 TEST_CASE("the ceiling is left out, floor and walls are not") {
   const double resolution_m = 0.1;
   const SelfMap map = room_map(resolution_m);

@@ -53,6 +53,24 @@ pcl::PointCloud<pcl::PointXYZ> xyz_of(const pcl::PointCloud<P>& cloud) {
   return xyz;
 }
 
+void give_costs_to_half(SelfMap& map) {
+  std::vector<VoxelCost> costs;
+  map.for_each_known_voxel({}, [&](const VoxelKey& key, VoxelState state, float) {
+    if (state != VoxelState::kOccupied || (key.x + key.y + key.z) % 2 != 0) return;
+    costs.push_back({key, static_cast<float>(costs.size() % 100) / 100.0F, 1.0F});
+  });
+  map.fuse_costs(costs);
+}
+
+float field_of(const pcl::PCLPointCloud2& cloud, const char* name, std::size_t point) {
+  const int index = pcl::getFieldIndex(cloud, name);
+  REQUIRE(index >= 0);
+  float value = 0.0F;
+  const auto offset = cloud.fields[static_cast<std::size_t>(index)].offset;
+  std::memcpy(&value, &cloud.data[point * cloud.point_step + offset], sizeof value);
+  return value;
+}
+
 }  // namespace
 
 TEST_CASE("clouds written by PCL in every PCD encoding are read as they were") {
@@ -114,10 +132,11 @@ TEST_CASE("recorded clouds are read as PCL reads them") {
   check_same(read_cloud(*ply).value().points, theirs);
 }
 
-TEST_CASE("PCL reads the occupied voxel centres and probabilities of a saved map") {
+TEST_CASE("PCL reads the occupied voxel centres, probabilities and costs of a saved map") {
   const TemporaryFolder folder;
   MapSnapshot map{LayerOrigin{800, -1600, 8}, SelfMap(SelfMapConfig{})};
   for (const auto& scan : walk_through_room(Room{}, Lidar{}, 3)) map.voxels.integrate(scan.view());
+  give_costs_to_half(map.voxels);
   for (const char* name : {"map.pcd", "map.ply"}) {
     CAPTURE(name);
     const auto saved = save_map(map, folder / name);
@@ -129,8 +148,7 @@ TEST_CASE("PCL reads the occupied voxel centres and probabilities of a saved map
     REQUIRE((is_pcd ? pcl::io::loadPCDFile((folder / name).string(), generic)
                     : pcl::io::loadPLYFile((folder / name).string(), generic)) == 0);
     REQUIRE(generic.width * generic.height == saved->voxels);
-    const int p_index = pcl::getFieldIndex(generic, "p");
-    REQUIRE(p_index >= 0);
+    std::size_t without_cost = 0;
     pcl::PointCloud<pcl::PointXYZ> points;
     pcl::fromPCLPointCloud2(generic, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -138,10 +156,15 @@ TEST_CASE("PCL reads the occupied voxel centres and probabilities of a saved map
           map.voxels.lattice().key_of(points[i].x - 80.0, points[i].y + 160.0, points[i].z - 0.8);
       REQUIRE(key);
       REQUIRE(map.voxels.state(*key) == VoxelState::kOccupied);
-      float p = 0.0F;
-      const auto offset = generic.fields[static_cast<std::size_t>(p_index)].offset;
-      std::memcpy(&p, &generic.data[i * generic.point_step + offset], sizeof p);
-      REQUIRE(p == doctest::Approx(1.0 / (1.0 + std::exp(-*map.voxels.log_odds(*key)))));
+      REQUIRE(field_of(generic, "p", i) ==
+              doctest::Approx(1.0 / (1.0 + std::exp(-*map.voxels.log_odds(*key)))));
+      const auto cost = map.voxels.cost(*key);
+      without_cost += cost ? 0 : 1;
+      if (cost) REQUIRE(field_of(generic, "cost", i) == *cost);
+      if (!cost) REQUIRE(std::isnan(field_of(generic, "cost", i)));
     }
+    CHECK(without_cost == map.voxels.cost_counts().no_data);
+    CHECK(without_cost > 100);
+    CHECK(without_cost < points.size() - 100);
   }
 }

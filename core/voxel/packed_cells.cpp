@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/voxel/cell_values.hpp"
+#include "core/voxel/packed_cells.hpp"
 
 #include "core/voxel/bits.hpp"
+#include "core/voxel/voxel_cost.hpp"
 
 namespace warren {
 namespace {
 
-constexpr std::uint32_t index_of(CellValues::Ref ref) { return (ref >> 2) - 1; }
+constexpr std::uint32_t index_of(std::uint32_t ref) { return (ref >> 2) - 1; }
 
 }  // namespace
 
-void CellValues::unpack(Ref ref, std::uint64_t stored, std::array<std::int16_t, 64>& values) const {
+template <typename Value>
+void PackedCells<Value>::unpack(Ref ref, std::uint64_t stored,
+                                std::array<Value, 64>& values) const {
   if (stored == 0) return;
-  const std::int16_t* next = data(ref);
+  const Value* next = data(ref);
   for_each_bit(stored, [&](std::uint32_t bit) { values[bit] = *next++; });
 }
 
-CellValues::Ref CellValues::repack(Ref ref, std::uint64_t stored,
-                                   const std::array<std::int16_t, 64>& values) {
+template <typename Value>
+typename PackedCells<Value>::Ref PackedCells<Value>::repack(Ref ref, std::uint64_t stored,
+                                                            const std::array<Value, 64>& values) {
   if (stored == 0) {
     release(ref);
     return 0;
@@ -26,22 +30,19 @@ CellValues::Ref CellValues::repack(Ref ref, std::uint64_t stored,
     release(ref);
     ref = allocate(size_class(stored));
   }
-  std::int16_t* next = data(ref);
+  Value* next = data(ref);
   for_each_bit(stored, [&](std::uint32_t bit) { *next++ = values[bit]; });
   return ref;
 }
 
-std::int16_t CellValues::value(Ref ref, std::uint64_t stored, std::uint32_t bit) const {
-  const std::uint64_t before = stored & ((std::uint64_t{1} << bit) - 1);
-  return data(ref)[std::popcount(before)];
-}
-
-std::size_t CellValues::memory_bytes() const {
+template <typename Value>
+std::size_t PackedCells<Value>::memory_bytes() const {
   return eights_.memory_bytes() + sixteens_.memory_bytes() + thirty_twos_.memory_bytes() +
          sixty_fours_.memory_bytes();
 }
 
-CellValues::Ref CellValues::allocate(std::uint32_t size_class) {
+template <typename Value>
+typename PackedCells<Value>::Ref PackedCells<Value>::allocate(std::uint32_t size_class) {
   const std::uint32_t index = size_class == 0   ? eights_.allocate()
                               : size_class == 1 ? sixteens_.allocate()
                               : size_class == 2 ? thirty_twos_.allocate()
@@ -49,7 +50,8 @@ CellValues::Ref CellValues::allocate(std::uint32_t size_class) {
   return (index + 1) << 2 | size_class;
 }
 
-void CellValues::release(Ref ref) {
+template <typename Value>
+void PackedCells<Value>::release(Ref ref) {
   if (ref == 0) return;
   switch (ref & 3) {
     case 0:
@@ -63,7 +65,8 @@ void CellValues::release(Ref ref) {
   }
 }
 
-std::int16_t* CellValues::data(Ref ref) {
+template <typename Value>
+Value* PackedCells<Value>::data(Ref ref) {
   switch (ref & 3) {
     case 0:
       return eights_[index_of(ref)].data();
@@ -75,5 +78,8 @@ std::int16_t* CellValues::data(Ref ref) {
       return sixty_fours_[index_of(ref)].data();
   }
 }
+
+template class PackedCells<std::int16_t>;
+template class PackedCells<FusedCost>;
 
 }  // namespace warren
