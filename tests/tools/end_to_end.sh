@@ -51,7 +51,7 @@ stop_daemon() {
 simulate() { # SUBCOMMAND SWEEPS [ARG..]
   local subcommand=$1 sweeps=$2
   "$bin/warren-sim" "$subcommand" --world room --seed 3 --seconds "$((sweeps / 10)).$((sweeps % 10))5" \
-    --columns 128 "${@:3}"
+    --columns "${columns:-128}" "${@:3}"
 }
 
 scene() { # SWEEPS
@@ -162,6 +162,24 @@ case_robots_measure_live_into_the_daemon() {
     fail "two robots took one socket"
   fi
   grep -q "one --socket per robot" "$work/err" || fail "$(cat "$work/err")"
+  stop_daemon
+}
+
+case_the_ground_can_be_asked_about() {
+  local ctl=("$bin/warrenctl" --socket "$work/control.sock")
+  start_daemon
+  if "${ctl[@]}" query ground 0 0 0 2>"$work/err"; then fail "answered without a map"; fi
+  grep -q "no map yet" "$work/err" || fail "$(cat "$work/err")"
+  columns=512 simulate run 12 --rate max --socket "$work/ingest.sock" >/dev/null 2>&1 || fail "no run"
+  "${ctl[@]}" map save "$work/cost.png" --colours cost >/dev/null
+  [ "$(stat -c %s "$work/cost.png")" -gt 10000 ] || fail "cost.png is empty"
+  status
+  [ "$(mapped cost_up_to_0p10)" -gt 500 ] || fail "no easy ground: $(cat "$work/status.json")"
+  [ "$(mapped cost_above_0p20)" -gt 500 ] || fail "no walls: $(cat "$work/status.json")"
+  "${ctl[@]}" query ground 1000 0 0 --json >"$work/far.json"
+  [ "$(field validity <"$work/far.json")" = unknown ] || fail "$(cat "$work/far.json")"
+  "${ctl[@]}" query ground 1000 0 -5 | grep -q 'mean cost *no data' || fail "no table"
+  if "${ctl[@]}" query ground 0 0 0 --width 1000 2>/dev/null; then fail "took a footprint of 1 km"; fi
   stop_daemon
 }
 
