@@ -114,12 +114,12 @@ std::uint32_t TileTable::find_or_add(std::uint64_t key, std::uint32_t fresh) {
 }
 
 void TileTable::grow() {
-  std::vector<Entry> old(4 * entries_.size());
-  std::swap(old, entries_);
+  spare_.assign(4 * entries_.size(), Entry{});
+  std::swap(spare_, entries_);
   mask_ = entries_.size() - 1;
   shift_ = static_cast<unsigned>(64 - std::countr_zero(entries_.size()));
   used_ = 0;
-  for (const Entry& entry : old) {
+  for (const Entry& entry : spare_) {
     if (entry.key != 0) find_or_add(entry.key, entry.value);
   }
 }

@@ -73,6 +73,7 @@ class TileTable {
   void grow();
 
   std::vector<Entry> entries_ = std::vector<Entry>(2);
+  std::vector<Entry> spare_;  // memory to grow into
   std::size_t mask_ = 1;
   unsigned shift_ = 63;
   std::size_t used_ = 0;
