@@ -22,16 +22,16 @@ Point3f plane_of(const PlaneFits& fits, std::size_t i, const Point3f& gravity) {
 std::span<const float> StepSearch::find(const ReducedCloud& cloud, const PlaneFits& fits,
                                         std::span<const Evidence> evidence, const Point3f& gravity,
                                         const StepTerm& term) {
-  assert(term.radii_m[0] <= term.radii_m[1] && evidence.size() == cloud.size());
+  assert(evidence.size() == cloud.size());
   steps_m_.assign(cloud.size(), 0.0F);
   planes_.assign(cloud.size(), Point3f{});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (evidence[i] == Evidence::kPlane) planes_[i] = plane_of(fits, i, gravity);
   }
-  // The first level whose neighbourhoods hold the larger radius everywhere; nothing of it is lost
+  // The first level whose neighbourhoods hold the radius everywhere; nothing of it is lost
   // but by rounding at its very edge.
   const TileLevel* level = &cloud.tiles;
-  for (std::size_t depth = 0; level->edge_m() < term.radii_m[1]; ++depth) {
+  for (std::size_t depth = 0; level->edge_m() < term.radius_m; ++depth) {
     coarser_[depth % 2].assign_parents_of(*level);
     level = &coarser_[depth % 2];
   }
@@ -47,7 +47,7 @@ void StepSearch::search_tile(const ReducedCloud& cloud, const TileLevel& level, 
   heights_.reserve(candidates.count);
   for (std::size_t i = tile.points.first; i < tile.points.end; ++i) {
     if (planes_[i] == Point3f{}) continue;
-    steps_m_[i] = step_within(candidates, {cloud.point(i), planes_[i], term.radii_m}, heights_);
+    steps_m_[i] = step_within(candidates, {cloud.point(i), planes_[i], term.radius_m}, heights_);
   }
 }
 

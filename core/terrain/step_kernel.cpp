@@ -25,11 +25,10 @@ struct KeptHeights {
 };
 
 // Heights of the candidates within the radius, and behind them infinity up to a whole vector.
-KeptHeights keep_heights(const Candidates& candidates, const StepQuery& query, float radius_m,
-                         float* heights) {
+KeptHeights keep_heights(const Candidates& candidates, const StepQuery& query, float* heights) {
   const Wide d;
   const std::size_t lanes = hn::Lanes(d);
-  const auto most = hn::Set(d, radius_m * radius_m);
+  const auto most = hn::Set(d, query.radius_m * query.radius_m);
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
   const auto cx = hn::Set(d, query.centre.x), cy = hn::Set(d, query.centre.y),
              cz = hn::Set(d, query.centre.z);
@@ -75,17 +74,12 @@ float height_of_rank(const float* heights, const KeptHeights& kept, std::size_t 
   return high;
 }
 
-float spread_within(const Candidates& candidates, const StepQuery& query, float radius_m,
-                    float* heights) {
-  const KeptHeights kept = keep_heights(candidates, query, radius_m, heights);
+float step_within_here(const Candidates& candidates, const StepQuery& query, Heights& room) {
+  float* const heights = room.data();
+  const KeptHeights kept = keep_heights(candidates, query, heights);
   if (kept.count < 2) return 0.0F;
   const std::size_t tail = kept.count / 20;
   return height_of_rank(heights, kept, kept.count - tail) - height_of_rank(heights, kept, tail + 1);
-}
-
-float step_within_here(const Candidates& candidates, const StepQuery& query, Heights& heights) {
-  return std::max(spread_within(candidates, query, query.radii_m[0], heights.data()),
-                  spread_within(candidates, query, query.radii_m[1], heights.data()));
 }
 
 }  // namespace warren::HWY_NAMESPACE

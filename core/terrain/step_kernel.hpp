@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,7 +11,7 @@ namespace warren {
 struct StepQuery {
   Point3f centre;
   Point3f plane;  // its product with an offset is the height across the plane, along gravity
-  std::array<float, 2> radii_m{};  // ascending
+  float radius_m = 0.0F;
 };
 
 // Room for the heights of the candidates.
@@ -29,8 +28,8 @@ class Heights {
   std::vector<float> values_;
 };
 
-// The larger, of both radii, of the difference between the 95th and the 5th percentile of the
-// heights; each is right to 1/256 of all the difference. Every CPU gives the same bits.
+// The difference between the 95th and the 5th percentile of the heights within the radius, each
+// right to 1/256 of all the difference. Every CPU gives the same bits.
 float step_within(const Candidates& candidates, const StepQuery& query, Heights& heights);
 
 }  // namespace warren

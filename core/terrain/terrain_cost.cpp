@@ -24,11 +24,8 @@ float terrain_cost(const GroundShape& shape, const TerrainCostConfig& config) {
   const float tilt = std::max(0.0F, 1.0F - std::abs(shape.normal_along_gravity));
   float share = (config.slope_gain * tilt * tilt * tilt + config.curvature_gain * shape.curvature) /
                 config.saturation;
-  const float floor_m = config.noise.height_m(shape.range_m);
-  if (config.roughness) {
-    share += std::max(0.0F, shape.roughness_m - floor_m) / config.roughness->critical_m;
-  }
-  if (config.step) share += std::max(0.0F, shape.step_m - floor_m) / config.step->critical_m;
+  if (config.roughness) share += config.roughness->limits.share_of(shape.roughness_m);
+  if (config.step) share += config.step->limits.share_of(shape.step_m);
   return std::clamp(share, 0.0F, 1.0F);
 }
 

@@ -24,8 +24,8 @@ using EvidenceCounts = std::array<std::uint64_t, kEvidenceCount>;
 
 // How wide a neighbourhood may be, by the range of its point from the sensor.
 struct WidthLimit {
-  float base_m = 0.25F;
-  float per_range = 0.05F;
+  float base_m = 0.5F;
+  float per_range = 0.03F;
 
   float radius_m(float range_m) const { return base_m + per_range * range_m; }
 };
@@ -36,31 +36,32 @@ struct EvidenceConfig {
   std::optional<WidthLimit> width;  // none: any width will do
 };
 
-// What the noise of a lidar explains of a height difference.
-struct NoiseFloor {
-  float least_m = 0.01F;
-  float per_range = 0.004F;
+// A height that costs nothing up to `harmless_m` and makes the cost 1 by itself at `critical_m`.
+struct HeightLimits {
+  float harmless_m = 0.0F;
+  float critical_m = 1.0F;
 
-  float height_m(float range_m) const { return std::max(least_m, per_range * range_m); }
+  float share_of(float height_m) const {
+    return std::max(0.0F, height_m - harmless_m) / (critical_m - harmless_m);
+  }
 };
 
-// Standard deviation from the plane beyond the noise floor; at the critical value the term alone
-// makes the cost 1.
+// Standard deviation of the neighbourhood from its plane.
 struct RoughnessTerm {
-  float critical_m = 0.05F;
+  HeightLimits limits{0.06F, 0.20F};
 };
 
-// Height differences across the plane within two radii, beyond the noise floor; the larger counts.
+// Height differences across the plane within a radius. Small ones are harmless: every vehicle
+// takes them, and a lidar's noise explains them.
 struct StepTerm {
-  float critical_m = 0.12F;
-  std::array<float, 2> radii_m{0.125F, 0.4F};  // ascending
+  HeightLimits limits{0.05F, 0.20F};
+  float radius_m = 0.2F;
 };
 
 struct TerrainCostConfig {
   float slope_gain = 20.0F;
   float curvature_gain = 2.0F;
   float saturation = 0.5F;  // what counts as cost 1; 1.0 for short-range depth cameras
-  NoiseFloor noise;
   std::optional<RoughnessTerm> roughness;
   std::optional<StepTerm> step;
 };
@@ -70,7 +71,6 @@ struct GroundShape {
   float curvature = 0.0F;
   float roughness_m = 0.0F;
   float step_m = 0.0F;
-  float range_m = 0.0F;
 };
 
 // The paper's Eq. 3, and the optional terms added to its sum: 0 easy, 1 impossible.

@@ -31,8 +31,8 @@ TerrainConfig TerrainConfig::paper() { return {}; }
 
 TerrainConfig TerrainConfig::robust() {
   TerrainConfig config;
-  config.neighbourhood.max_radius_m = 1.25F;  // the width limit at 20 m
   config.evidence.width = WidthLimit{};
+  config.neighbourhood.max_radius_m = config.evidence.width->radius_m(20.0F);
   config.cost.roughness = RoughnessTerm{};
   config.cost.step = StepTerm{};
   return config;
@@ -86,7 +86,7 @@ void TerrainJudge::judge_points(const Point3f& gravity) {
     const GroundShape shape{fits_.normal_x[i] * gravity.x + fits_.normal_y[i] * gravity.y +
                                 fits_.normal_z[i] * gravity.z,
                             fits_.curvature[i], std::sqrt(fits_.l0[i]),
-                            steps_m_.empty() ? 0.0F : steps_m_[i], ranges_m_[i]};
+                            steps_m_.empty() ? 0.0F : steps_m_[i]};
     const bool has_cost = evidence_[i] == Evidence::kPlane;
     judged_[i] = {cloud_->point(i), has_cost ? terrain_cost(shape, config_.cost) : 0.0F,
                   evidence_[i]};

@@ -23,7 +23,8 @@ struct TerrainConfig {
 
   // Eq. 3 as printed, neighbourhoods of any width.
   static TerrainConfig paper();
-  // The same with roughness and steps, and no data where neighbourhoods are too wide.
+  // The same with steps, and no data where neighbourhoods are too wide; chosen by
+  // `warren-bench terrain-quality`.
   static TerrainConfig robust();
 };
 

@@ -26,6 +26,10 @@ TerrainConfig TerrainSettings::resolved() const {
   TerrainConfig config =
       profile == TerrainProfile::kPaper ? TerrainConfig::paper() : TerrainConfig::robust();
   config.cost.saturation = static_cast<float>(saturation);
+  if (config.cost.step) {
+    config.cost.step->limits = {static_cast<float>(step_harmless_m),
+                                static_cast<float>(step_critical_m)};
+  }
   return config;
 }
 

@@ -48,6 +48,8 @@ enum class TerrainProfile : std::uint8_t { kRobust, kPaper };
 struct TerrainSettings {
   TerrainProfile profile = TerrainProfile::kRobust;
   double saturation = 0.5;
+  double step_harmless_m = 0.05;
+  double step_critical_m = 0.20;
   CostRule fusion = CostRule::kInformation;
 
   TerrainConfig resolved() const;

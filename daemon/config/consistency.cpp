@@ -19,6 +19,12 @@ void check_sensor_model(const SensorModelConfig& model, FaultList& faults) {
   check("maximum", model.maximum);
 }
 
+void check_terrain(const TerrainSettings& terrain, FaultList& faults) {
+  if (terrain.step_critical_m <= terrain.step_harmless_m) {
+    faults.add("terrain.step_critical_m", "must be above step_harmless_m");
+  }
+}
+
 void check_sockets(const Config::Sockets& sockets, FaultList& faults) {
   if (sockets.ingest.path == sockets.control.path) {
     faults.add("sockets.control.path", "is sockets.ingest.path too; they need two");
@@ -50,6 +56,7 @@ void check_sensor(const SensorConfig& sensor, const std::string& place, FaultLis
 
 void check_consistency(const Config& config, FaultList& faults) {
   check_sensor_model(config.map.sensor_model, faults);
+  check_terrain(config.terrain, faults);
   check_sockets(config.sockets, faults);
   std::set<std::string> names;
   for (std::size_t i = 0; i < config.sensors.size(); ++i) {

@@ -88,6 +88,16 @@ constexpr std::array kRootKeys{
             Takes::kRestart,
             [](Config& c) -> Slot { return &c.terrain.saturation; },
             {0.05, 10.0}},
+    RootKey{"terrain.step_harmless_m",
+            "Steps up to this height cost nothing (robust). Raise it for robots that climb.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.terrain.step_harmless_m; },
+            {0.0, 2.0}},
+    RootKey{"terrain.step_critical_m",
+            "Steps from this height on are impossible (robust); above step_harmless_m.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.terrain.step_critical_m; },
+            {0.01, 3.0}},
     RootKey{"terrain.fusion",
             "How a voxel's costs of many scans become one. information: average weighted by how "
             "much each scan can tell, follows changes; paper: the surer the voxel is occupied, "

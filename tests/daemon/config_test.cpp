@@ -140,6 +140,8 @@ TEST_CASE("contradictions are faults") {
   check_fault("map: {sensor_model: {hit: 0.8}}\n",
               "robot.yaml:1: map.sensor_model.hit: only with preset: custom");
   CHECK(faults_of("map: {sensor_model: {preset: custom}}\n").size() == 4);
+  check_fault("terrain: {step_harmless_m: 0.3}\n",
+              "robot.yaml:1: terrain.step_critical_m: must be above step_harmless_m");
   check_fault("sockets: {ingest: {path: /a}, control: {path: /a}}\n",
               "robot.yaml:1: sockets.control.path: is sockets.ingest.path too; they need two");
 }
@@ -194,6 +196,23 @@ TEST_CASE("a reload takes what it can and names what it cannot") {
   CHECK(result.log.level == LogLevel::kDebug);
   CHECK(result.sensors == wanted.sensors);
   CHECK(result.map == Config{}.map);
+}
+
+TEST_CASE("the terrain's settings reach the judge and the fusion of costs") {
+  const auto config = parse_config(
+      "terrain: {profile: robust, saturation: 1, step_harmless_m: 0.1, step_critical_m: 0.4, "
+      "fusion: paper}\n",
+      "robot.yaml");
+  REQUIRE(config.has_value());
+  const TerrainConfig terrain = config->terrain.resolved();
+  CHECK(terrain.cost.saturation == 1.0F);
+  REQUIRE(terrain.cost.step);
+  CHECK(terrain.cost.step->limits.share_of(0.1F) == 0.0F);
+  CHECK(terrain.cost.step->limits.share_of(0.4F) == doctest::Approx(1.0));
+  CHECK(config->self_map().cost_fusion.rule == CostRule::kPaper);
+  const auto paper = parse_config("terrain: {profile: paper}\n", "robot.yaml");
+  CHECK_FALSE(paper.value().terrain.resolved().cost.step);
+  CHECK_FALSE(paper.value().terrain.resolved().cost.roughness);
 }
 
 }  // namespace warren

@@ -43,6 +43,11 @@ struct RawMapQuality {
   std::vector<double> custom;  // hit, miss, minimum, maximum
 };
 
+struct RawTerrainQuality {
+  TerrainQualityCommand command;
+  std::vector<std::string> vehicles = world::vehicle_names();
+};
+
 void add_source(CLI::App& app, RawSource& raw, const char* max_range_help) {
   app.add_option("--clouds", raw.clouds, "directory of clouds, or one")->required();
   app.add_option("--poses", raw.poses, "pose file (none: identity)");
@@ -110,6 +115,23 @@ void add_options(CLI::App& app, RawMapQuality& raw) {
   app.add_flag("--json", raw.command.json, "one JSON object instead of text");
 }
 
+void add_options(CLI::App& app, RawTerrainQuality& raw) {
+  TerrainQualityOptions& options = raw.command.options;
+  app.add_option("--worlds", options.worlds, "presets")->delimiter(',')->capture_default_str();
+  app.add_option("--vehicles", raw.vehicles, "whose bodies are tried")
+      ->delimiter(',')
+      ->check(CLI::IsMember(world::vehicle_names()))
+      ->capture_default_str();
+  app.add_option("--seed", options.run.seed)->capture_default_str();
+  app.add_option("--seconds", options.run.duration_s, "that the robot explores")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  app.add_option("--spacing", options.run.place_spacing_m, "of the places judged, m")
+      ->check(CLI::Range(0.05, 5.0))
+      ->capture_default_str();
+  app.add_flag("--json", raw.command.json, "one JSON object instead of text");
+}
+
 SequenceSource source_of(const RawSource& raw) {
   SequenceSource source;
   source.clouds = raw.clouds;
@@ -160,6 +182,15 @@ MapQualityCommand resolve(const RawMapQuality& raw) {
   return command;
 }
 
+TerrainQualityCommand resolve(const RawTerrainQuality& raw) {
+  TerrainQualityCommand command = raw.command;
+  command.options.run.vehicles.clear();
+  for (const std::string& name : raw.vehicles) {
+    command.options.run.vehicles.push_back(*world::vehicle_of(name));
+  }
+  return command;
+}
+
 }  // namespace
 
 Command parse_command_line(int argc, char** argv) {
@@ -169,6 +200,7 @@ Command parse_command_line(int argc, char** argv) {
   RawMapQuality map_quality;
   RawTerrain terrain;
   RawPipeline pipeline;
+  RawTerrainQuality terrain_quality;
   CLI::App* const integrate_app =
       app.add_subcommand("integrate", "scans into a map, beside OctoMap");
   CLI::App* const map_quality_app =
@@ -177,10 +209,13 @@ Command parse_command_line(int argc, char** argv) {
       app.add_subcommand("terrain", "scans into costs of the ground, beside PCL");
   CLI::App* const pipeline_app = app.add_subcommand(
       "pipeline", "scans into a map with costs, beside PCL and OctoMap together");
+  CLI::App* const terrain_quality_app = app.add_subcommand(
+      "terrain-quality", "costs of the ground against what vehicles can do in simulated worlds");
   add_options(*integrate_app, integrate);
   add_options(*map_quality_app, map_quality);
   add_options(*terrain_app, terrain);
   add_options(*pipeline_app, pipeline);
+  add_options(*terrain_quality_app, terrain_quality);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -189,6 +224,7 @@ Command parse_command_line(int argc, char** argv) {
   if (map_quality_app->parsed()) return resolve(map_quality);
   if (terrain_app->parsed()) return resolve(terrain);
   if (pipeline_app->parsed()) return resolve(pipeline);
+  if (terrain_quality_app->parsed()) return resolve(terrain_quality);
   return resolve(integrate);
 }
 

@@ -7,6 +7,7 @@
 #include "tools/warren-bench/integrate.hpp"
 #include "tools/warren-bench/map_quality.hpp"
 #include "tools/warren-bench/pipeline_bench.hpp"
+#include "tools/warren-bench/terrain_quality.hpp"
 
 namespace warren {
 
@@ -31,12 +32,16 @@ struct PipelineCommand {
   std::optional<double> max_range_m;
   bool json = false;
 };
+struct TerrainQualityCommand {
+  TerrainQualityOptions options;
+  bool json = false;
+};
 struct ExitCommand {  // help was printed (0), or the line was wrong (2)
   int code = 0;
 };
 
-using Command =
-    std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, PipelineCommand, ExitCommand>;
+using Command = std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, PipelineCommand,
+                             TerrainQualityCommand, ExitCommand>;
 Command parse_command_line(int argc, char** argv);
 
 }  // namespace warren

@@ -61,6 +61,15 @@ int execute(const PipelineCommand& command) {
   return 0;
 }
 
+int execute(const TerrainQualityCommand& command) {
+  const auto results = bench_terrain_quality(command.options);
+  if (!results) return fail(results.error());
+  const std::string text =
+      command.json ? to_json(*results, command.options) + "\n" : to_text(*results);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
 int execute(const ExitCommand& command) { return command.code; }
 
 }  // namespace

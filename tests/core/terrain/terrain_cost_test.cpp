@@ -52,12 +52,20 @@ TEST_CASE("curvature is weighed by its gain and the saturation") {
   CHECK(terrain_cost({.curvature = 0.05F}, config) == doctest::Approx(0.1));
 }
 
-TEST_CASE("roughness and steps count beyond the noise of the range, and only if asked for") {
+TEST_CASE("roughness counts beyond the harmless, up to the critical, and only if asked for") {
   const TerrainCostConfig robust = TerrainConfig::robust().cost;
-  const GroundShape rough{.roughness_m = 0.06F, .step_m = 0.13F, .range_m = 2.0F};
-  CHECK(terrain_cost(rough, TerrainConfig::paper().cost) == 0.0F);
-  CHECK(terrain_cost({.roughness_m = 0.06F, .range_m = 2.0F}, robust) == doctest::Approx(1.0));
-  CHECK(terrain_cost({.step_m = 0.07F, .range_m = 2.0F}, robust) == doctest::Approx(0.5));
-  CHECK(terrain_cost({.step_m = 0.07F, .range_m = 17.5F}, robust) == doctest::Approx(0.0));
-  CHECK(terrain_cost({.roughness_m = 0.009F, .step_m = 0.01F}, robust) == 0.0F);
+  CHECK(terrain_cost({.roughness_m = 0.20F}, TerrainConfig::paper().cost) == 0.0F);
+  CHECK(terrain_cost({.roughness_m = 0.06F}, robust) == 0.0F);
+  CHECK(terrain_cost({.roughness_m = 0.13F}, robust) == doctest::Approx(0.5));
+  CHECK(terrain_cost({.roughness_m = 1.0F}, robust) == 1.0F);
+  CHECK(terrain_cost({.roughness_m = 0.13F, .step_m = 0.125F}, robust) == doctest::Approx(1.0));
+}
+
+TEST_CASE("steps count beyond the harmless, up to the critical, and only if asked for") {
+  const TerrainCostConfig robust = TerrainConfig::robust().cost;
+  CHECK(terrain_cost({.step_m = 0.20F}, TerrainConfig::paper().cost) == 0.0F);
+  CHECK(terrain_cost({.step_m = 0.05F}, robust) == 0.0F);
+  CHECK(terrain_cost({.step_m = 0.125F}, robust) == doctest::Approx(0.5));
+  CHECK(terrain_cost({.step_m = 0.20F}, robust) == doctest::Approx(1.0));
+  CHECK(terrain_cost({.step_m = 1.0F}, robust) == 1.0F);
 }

@@ -146,22 +146,44 @@ TEST_CASE("a neighbourhood too wide for its range gives no data in profile robus
 
 TEST_CASE("a step costs in profile robust before the plane fit sees it") {
   auto points = test::ramp(0.0F);
-  for (Point3f& p : points) p.z = p.x > 1.01F ? 0.15F : 0.0F;
+  for (Point3f& p : points) {
+    p = {p.x + 0.02F, p.y + 0.02F, p.x > 1.01F ? 0.10F : 0.0F};  // each in a cell of its own
+  }
   TerrainJudge robust(TerrainConfig::robust());
   TerrainJudge paper(TerrainConfig::paper());
   const auto costs_near = [](std::span<const JudgedPoint> judged) {
     std::vector<JudgedPoint> near;
     for (const JudgedPoint& p : judged) {
-      if (p.position_layer.x > 0.72F && p.position_layer.x < 0.82F) near.push_back(p);
+      if (p.position_layer.x > 0.90F && p.position_layer.x < 0.94F) near.push_back(p);
     }
     return mean_cost(near);
   };
   CHECK(costs_near(paper.judge({points, {}})) < 0.01F);
-  CHECK(costs_near(robust.judge({points, {}})) > 0.9F);
+  CHECK(costs_near(robust.judge({points, {}})) > 0.3F);
   CHECK(mean_cost(robust.judge({test::ramp(0.0F), {}})) < 0.01F);
   // A ramp is no step.
   const float slope = 15.0F * kDegree;
   CHECK(mean_cost(robust.judge({test::ramp(slope), {}})) < 0.02F);
+}
+
+TEST_CASE("a step that every vehicle takes costs what the paper's profile says") {
+  auto points = test::ramp(0.0F);
+  for (Point3f& p : points) p.z = p.x > 1.01F ? 0.04F : 0.0F;
+  TerrainJudge robust(TerrainConfig::robust());
+  TerrainJudge paper(TerrainConfig::paper());
+  CHECK(same(robust.judge({points, {}}), paper.judge({points, {}})));
+}
+
+TEST_CASE("a wall is no step for the floor a quarter of a metre before it") {
+  auto points = test::ramp(0.0F, 21);  // up to x = 1
+  for (Point3f p : test::ramp(90.0F * kDegree, 21)) {
+    p.x += 1.0F;
+    points.push_back(p);
+  }
+  TerrainJudge robust(TerrainConfig::robust());
+  for (const JudgedPoint& p : robust.judge({points, {}})) {
+    if (p.position_layer.x < 0.76F) CHECK(p.cost < 0.01F);
+  }
 }
 
 TEST_CASE("the order of points and earlier scans change no bit") {
