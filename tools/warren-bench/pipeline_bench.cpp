@@ -13,55 +13,53 @@ namespace {
 
 constexpr Point3f kGravity{0.0F, 0.0F, -1.0F};
 
-// PCL's part: reduction and planes, of what lies within range as ours.
-class PclPart {
- public:
-  PclPart(const TerrainConfig& config, PipelineResult& result) : config_(config), result_(result) {}
+void run_ours(const ScanSequence& sequence, ScanPipeline& pipeline, SelfMap& map,
+              PipelineResult& result) {
+  Stopwatch watch;
+  for (std::size_t i = 0; i < sequence.scans.size(); ++i) {
+    watch.time([&] { pipeline.run(sequence.scan(i), kGravity, map); });
+  }
+  result.ours_cpu_ms = watch.ms_per(result.scans);
+}
 
-  void run(std::span<const Point3f> points_in_range) {
-    const auto cloud = PclTerrainPeer::make_cloud(points_in_range);
+// Reduction and planes, of what lies within range as ours.
+void run_pcl(ScanSequence sequence, const TerrainConfig& config, PipelineResult& result) {
+  sequence.leave_out_beyond_max_range();
+  const auto k = static_cast<int>(config.neighbourhood.neighbours);
+  Stopwatch reduction;
+  Stopwatch normals;
+  for (const auto& scan : sequence.scans) {
+    const auto cloud = PclTerrainPeer::make_cloud(scan.points_layer);
     const auto reduced =
-        reduction_.time([&] { return PclTerrainPeer::reduce(*cloud, config_.cell_m); });
-    if (PclTerrainPeer::size_of(*reduced) == points_in_range.size()) ++result_.scans_refused_by_pcl;
-    const auto k = static_cast<int>(config_.neighbourhood.neighbours);
-    normals_.time([&] { return PclTerrainPeer::fit_planes(*reduced, k).size(); });
+        reduction.time([&] { return PclTerrainPeer::reduce(*cloud, config.cell_m); });
+    if (PclTerrainPeer::size_of(*reduced) == scan.points_layer.size()) {
+      ++result.scans_refused_by_pcl;
+    }
+    normals.time([&] { return PclTerrainPeer::fit_planes(*reduced, k).size(); });
   }
-  void tell() {
-    result_.pcl_reduction_cpu_ms = reduction_.ms_per(result_.scans);
-    result_.pcl_normals_cpu_ms = normals_.ms_per(result_.scans);
+  result.pcl_reduction_cpu_ms = reduction.ms_per(result.scans);
+  result.pcl_normals_cpu_ms = normals.ms_per(result.scans);
+}
+
+double octomap_cpu_ms(const ScanSequence& sequence, const SelfMapConfig& config, bool lazy) {
+  OctomapPeer peer(config, lazy);
+  Stopwatch watch;
+  for (std::size_t i = 0; i < sequence.scans.size(); ++i) {
+    const auto cloud = OctomapPeer::make_cloud(sequence.scan(i));
+    watch.time([&] { peer.insert(*cloud); });
   }
+  watch.time([&] { peer.finish(); });
+  return watch.ms_per(sequence.scans.size());
+}
 
- private:
-  const TerrainConfig& config_;
-  PipelineResult& result_;
-  Stopwatch reduction_;
-  Stopwatch normals_;
-};
-
-class OctomapPart {
- public:
-  explicit OctomapPart(const SelfMapConfig& config) : eager_(config, false), lazy_(config, true) {}
-
-  void run(const LayerScan& scan) {
-    const auto cloud = OctomapPeer::make_cloud(scan);
-    eager_time_.time([&] { eager_.insert(*cloud); });
-    lazy_time_.time([&] { lazy_.insert(*cloud); });
-  }
-  void tell(PipelineResult& result) {
-    lazy_time_.time([&] { lazy_.finish(); });
-    const double eager_ms = eager_time_.ms_per(result.scans);
-    const double lazy_ms = lazy_time_.ms_per(result.scans);
-    result.octomap_lazy = lazy_ms < eager_ms;
-    result.octomap_cpu_ms = std::min(lazy_ms, eager_ms);
-    result.octomap_other_cpu_ms = std::max(lazy_ms, eager_ms);
-  }
-
- private:
-  OctomapPeer eager_;
-  OctomapPeer lazy_;
-  Stopwatch eager_time_;
-  Stopwatch lazy_time_;
-};
+void run_octomap(const ScanSequence& sequence, const SelfMapConfig& config,
+                 PipelineResult& result) {
+  const double eager_ms = octomap_cpu_ms(sequence, config, false);
+  const double lazy_ms = octomap_cpu_ms(sequence, config, true);
+  result.octomap_lazy = lazy_ms < eager_ms;
+  result.octomap_cpu_ms = std::min(lazy_ms, eager_ms);
+  result.octomap_other_cpu_ms = std::max(lazy_ms, eager_ms);
+}
 
 TerrainConfig config_of(const std::string& profile) {
   return profile == "paper" ? TerrainConfig::paper() : TerrainConfig::robust();
@@ -81,22 +79,11 @@ PipelineResult bench_pipeline(const ScanSequence& sequence, const PipelineOption
   PipelineResult result;
   result.scans = sequence.scans.size();
   result.points = sequence.point_count();
-  ScanSequence in_range = sequence;
-  in_range.leave_out_beyond_max_range();
-
   SelfMap map(options.map);
   ScanPipeline pipeline(config_of(options.profile));
-  Stopwatch ours;
-  PclPart pcl(pipeline.terrain(), result);
-  OctomapPart octomap(options.map);
-  for (std::size_t i = 0; i < sequence.scans.size(); ++i) {
-    ours.time([&] { pipeline.run(sequence.scan(i), kGravity, map); });
-    pcl.run(in_range.scans[i].points_layer);
-    octomap.run(sequence.scan(i));
-  }
-  result.ours_cpu_ms = ours.ms_per(result.scans);
-  pcl.tell();
-  octomap.tell(result);
+  run_ours(sequence, pipeline, map, result);
+  run_pcl(sequence, pipeline.terrain(), result);
+  run_octomap(sequence, options.map, result);
   count_voxels(map, result);
   return result;
 }

@@ -36,7 +36,7 @@ struct PipelineResult {
 };
 
 // Takes every scan through our whole pipeline, and through the same work with libraries: voxel grid
-// and 24-neighbour normals by PCL, rays by OctoMap. In this process, scan by scan in turn. The
+// and 24-neighbour normals by PCL, rays by OctoMap. In this process, one after the other. The
 // peer's slopes and its fusion of costs are left out: it is spared that work.
 PipelineResult bench_pipeline(const ScanSequence& sequence, const PipelineOptions& options);
 
