@@ -43,6 +43,11 @@ class KeyHistogram {
   std::uint64_t total_ = 0;
 };
 
+std::size_t raster_index(std::int32_t row, std::int32_t columns, std::int32_t column) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+         static_cast<std::size_t>(column);
+}
+
 std::int32_t cells_for(std::int32_t voxels, std::int32_t edge) { return (voxels - 1) / edge + 1; }
 
 }  // namespace
@@ -69,8 +74,7 @@ MapRelief::MapRelief(const SelfMap& map, const KeyBox& bounds) : low_(bounds.low
 std::size_t MapRelief::cell_index(std::int32_t key_x, std::int32_t key_y) const {
   const std::int32_t column = (key_x - low_.x) / edge_;
   const std::int32_t row = (key_y - low_.y) / edge_;
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-         static_cast<std::size_t>(column);
+  return raster_index(row, columns_, column);
 }
 
 void MapRelief::find_lowest(const SelfMap& map) {
@@ -91,7 +95,7 @@ std::vector<std::int32_t> MapRelief::floors_of_tiles() const {
   std::vector<std::vector<std::int32_t>> lowest(tiles);
   for (std::int32_t row = 0; row < rows_; ++row) {
     for (std::int32_t column = 0; column < columns_; ++column) {
-      const Cell& cell = cells_[static_cast<std::size_t>(row * columns_ + column)];
+      const Cell& cell = cells_[raster_index(row, columns_, column)];
       if (!shows_ground(cell)) continue;
       const std::int32_t tile = row / tile_ * tile_columns_ + column / tile_;
       lowest[static_cast<std::size_t>(tile)].push_back(cell.lowest);
@@ -114,13 +118,12 @@ std::vector<std::int32_t> MapRelief::smoothed(const std::vector<std::int32_t>& f
            y <= std::min(row + kSmoothTiles, tile_rows_ - 1); ++y) {
         for (std::int32_t x = std::max(column - kSmoothTiles, 0);
              x <= std::min(column + kSmoothTiles, tile_columns_ - 1); ++x) {
-          const std::int32_t floor = floors[static_cast<std::size_t>(y * tile_columns_ + x)];
+          const std::int32_t floor = floors[raster_index(y, tile_columns_, x)];
           if (floor != kNothing) around.push_back(floor);
         }
       }
       if (around.empty()) continue;
-      smooth[static_cast<std::size_t>(row * tile_columns_ + column)] =
-          quantile(around, kFloorShareOfTiles);
+      smooth[raster_index(row, tile_columns_, column)] = quantile(around, kFloorShareOfTiles);
     }
   }
   return smooth;
@@ -151,8 +154,8 @@ void MapRelief::find_floors() {
   spread(floors);
   for (std::int32_t row = 0; row < rows_; ++row) {
     for (std::int32_t column = 0; column < columns_; ++column) {
-      cells_[static_cast<std::size_t>(row * columns_ + column)].floor =
-          floors[static_cast<std::size_t>(row / tile_ * tile_columns_ + column / tile_)];
+      cells_[raster_index(row, columns_, column)].floor =
+          floors[raster_index(row / tile_, tile_columns_, column / tile_)];
     }
   }
 }
@@ -190,7 +193,7 @@ void MapRelief::for_each_free_cell(
     const std::function<void(const VoxelKey&, std::int32_t edge)>& visit) const {
   for (std::int32_t row = 0; row < rows_; ++row) {
     for (std::int32_t column = 0; column < columns_; ++column) {
-      const Cell& cell = cells_[static_cast<std::size_t>(row * columns_ + column)];
+      const Cell& cell = cells_[raster_index(row, columns_, column)];
       if (!cell.free) continue;
       visit({low_.x + column * edge_ + edge_ / 2, low_.y + row * edge_ + edge_ / 2, cell.floor},
             edge_);
