@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/layer/publisher.hpp"
+
+#include <utility>
+
+#include "core/voxel/bits.hpp"
+
+namespace warren {
+
+CodeBlock codes_of(const SelfMap& map, const BlockKey& key) {
+  const BlockStore& store = map.blocks();
+  const BlockSlot slot = store.slot_of(key);
+  BlockCodes codes;
+  if (slot == kAbsentBlock) return {};
+  if (slot == kFreeBlock) {
+    codes.known.fill(kFullCell);
+    return CodeBlock(codes);
+  }
+  const Block& block = store.block(slot);
+  codes.known = block.known;
+  codes.occupied = block.occupied;
+  for (std::uint32_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    for_each_bit(block.occupied[cell], [&](std::uint32_t bit) {
+      const std::uint32_t place = cell << 6 | bit;
+      codes.costs[place] = encode_cost(store.cost(block, place));
+    });
+  }
+  return CodeBlock(codes);
+}
+
+std::vector<PublishedBlock> changed_codes(const SelfMap& map, std::uint32_t cursor,
+                                          const Replica& published) {
+  std::vector<PublishedBlock> changed;
+  for (const BlockKey& key : map.blocks_changed_since(cursor)) {
+    PublishedBlock now{ordinal_of(key), codes_of(map, key)};
+    const LayerBlock* const before = published.find(now.block);
+    if (before != nullptr ? before->codes == now.codes : now.codes.empty()) continue;
+    changed.push_back(std::move(now));
+  }
+  return changed;
+}
+
+}  // namespace warren

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/layer/replica.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+#include "core/voxel/bits.hpp"
+
+namespace warren {
+namespace {
+
+VoxelMask places_that_differ(const BlockCodes& a, const BlockCodes& b) {
+  VoxelMask differ{};
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    differ[cell] = (a.known[cell] ^ b.known[cell]) | (a.occupied[cell] ^ b.occupied[cell]) |
+                   (a.stairs[cell] ^ b.stairs[cell]);
+    for_each_bit(a.occupied[cell] & b.occupied[cell], [&](std::uint32_t bit) {
+      const std::size_t place = cell << 6 | bit;
+      if (a.costs[place] != b.costs[place]) differ[cell] |= std::uint64_t{1} << bit;
+    });
+  }
+  return differ;
+}
+
+// Telling of a free voxel that did not change is allowed, and cheaper if it makes a whole 2x2x2
+// cube or 4x4x4 cell uniform.
+void fill_up_free(VoxelMask& told, const VoxelMask& free) {
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    if (told[cell] == 0) continue;
+    if (free[cell] == kFullCell) told[cell] = kFullCell;
+    for (int shift = 0; shift < 64; shift += 8) {
+      const std::uint64_t cube = std::uint64_t{0xFF} << shift;
+      if ((told[cell] & cube) != 0 && (free[cell] & cube) == cube) told[cell] |= cube;
+    }
+  }
+}
+
+void keep_only(BlockCodes& codes, const VoxelMask& told) {
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    for_each_bit(codes.occupied[cell] & ~told[cell],
+                 [&](std::uint32_t bit) { codes.costs[cell << 6 | bit] = kNoCostData; });
+    codes.known[cell] &= told[cell];
+    codes.occupied[cell] &= told[cell];
+    codes.stairs[cell] &= told[cell];
+  }
+}
+
+BlockDiff diff_of(BlockOrdinal ordinal, const LayerBlock& block, Revision from) {
+  BlockDiff diff{ordinal, block.history.latest(), false, block.codes.unpack()};
+  VoxelMask told = block.history.changed_since(from);
+  VoxelMask free{};
+  std::uint64_t no_more_known = 0;
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    free[cell] = diff.codes.known[cell] & ~diff.codes.occupied[cell];
+    no_more_known |= told[cell] & ~diff.codes.known[cell];
+  }
+  // Only the whole block can say that a voxel is unknown.
+  diff.replaces = no_more_known != 0;
+  if (diff.replaces) return diff;
+  fill_up_free(told, free);
+  keep_only(diff.codes, told);
+  return diff;
+}
+
+// Of the keys after `below`, up to `highest`, the one that a header says in the fewest bytes.
+BlockOrdinal roundest(BlockOrdinal below, BlockOrdinal highest) {
+  const auto low_bits = static_cast<int>(std::bit_width(below ^ highest)) - 1;
+  return highest >> low_bits << low_bits;
+}
+
+ApplyResult result_of(PacketError error) {
+  return error == PacketError::kMalformed ? ApplyResult::kMalformed : ApplyResult::kUnknownVersion;
+}
+
+ApplyResult result_of(RaiseResult result) {
+  switch (result) {
+    case RaiseResult::kRaised:
+      return ApplyResult::kApplied;
+    case RaiseResult::kDuplicate:
+      return ApplyResult::kDuplicate;
+    case RaiseResult::kGap:
+      return ApplyResult::kGap;
+    case RaiseResult::kTooManyIntervals:
+      break;
+  }
+  return ApplyResult::kTooManyIntervals;
+}
+
+}  // namespace
+
+template <typename Change>
+void Replica::change(BlockOrdinal ordinal, Change&& change) {
+  blocks_.change(ordinal, [&](LayerBlock& block) {
+    change(block);
+    digest_.update(ordinal, block.codes);
+  });
+}
+
+Replica::Replica(const LayerId& id, const Holdings& holdings, std::span<const StoredBlock> blocks)
+    : id_(id), holdings_(holdings) {
+  for (const StoredBlock& stored : blocks) {
+    assert(Revision{} < stored.changed_at && stored.changed_at <= holdings_.at(stored.block));
+    change(stored.block, [&](LayerBlock& block) {
+      block.codes = stored.codes;
+      block.history.record_all(stored.changed_at);
+    });
+  }
+}
+
+Revision Replica::publish(std::span<const PublishedBlock> blocks) {
+  assert(holdings_.intervals().size() == 1);
+  const Revision now = holdings_.at(0);
+  assert(now.number < std::numeric_limits<std::uint32_t>::max());
+  const Revision next{now.number + 1};
+  bool changed = false;
+  for (const PublishedBlock& published : blocks) {
+    const LayerBlock* const held = blocks_.find(published.block);
+    const CodeBlock before = held != nullptr ? held->codes : CodeBlock{};
+    if (before == published.codes) continue;
+    const VoxelMask differ = places_that_differ(before.unpack(), published.codes.unpack());
+    change(published.block, [&](LayerBlock& block) {
+      block.codes = published.codes;
+      block.history.record(next, differ);
+    });
+    changed = true;
+  }
+  if (!changed) return now;
+  holdings_ = Holdings(next);
+  return next;
+}
+
+std::optional<DiffPacket> Replica::encode(const EncodeRequest& request) const {
+  KeyInterval keys = request.keys;
+  while (!keys.empty() && holdings_.at(keys.first) <= request.from) {
+    keys.first = holdings_.interval_around(keys.first).end;
+  }
+  if (keys.empty()) return std::nullopt;
+  keys.end = std::min(keys.end, holdings_.interval_around(keys.first).end);
+
+  const Claim claim{keys, request.from, holdings_.at(keys.first)};
+  PacketWriter writer(claim, request.limit_bytes);
+  BlockOrdinal last_told = keys.first;
+  BlockOrdinal end = keys.end;
+  blocks_.for_each_changed(keys, request.from, [&](BlockOrdinal ordinal, const LayerBlock& block) {
+    if (!writer.add(diff_of(ordinal, block, request.from))) {
+      end = roundest(last_told, ordinal);
+      return false;
+    }
+    last_told = ordinal;
+    return true;
+  });
+  return writer.finish(end);
+}
+
+ApplyResult Replica::apply(const LayerId& layer, std::span<const std::uint8_t> packet) {
+  const ApplyResult result = judge_and_apply(layer, packet);
+  ++apply_counts_[static_cast<std::size_t>(result)];
+  return result;
+}
+
+ApplyResult Replica::judge_and_apply(const LayerId& layer, std::span<const std::uint8_t> packet) {
+  if (layer != id_) return ApplyResult::kOtherLayer;
+  const auto header = read_header(packet);
+  if (!header) return result_of(header.error());
+  const RaiseResult judged = holdings_.judge(header->claim);
+  if (judged != RaiseResult::kRaised) return result_of(judged);
+  const auto diffs = read_blocks(*header, packet);
+  if (!diffs) return result_of(diffs.error());
+
+  for (const BlockDiff& diff : *diffs) {
+    const Revision held = holdings_.at(diff.block);
+    // A block that did not change since is the same already.
+    if (header->claim.from <= held && held < diff.changed_at) apply(diff);
+  }
+  holdings_.raise(header->claim);
+  return ApplyResult::kApplied;
+}
+
+void Replica::apply(const BlockDiff& diff) {
+  change(diff.block, [&](LayerBlock& block) {
+    if (diff.replaces) {
+      block.codes = CodeBlock(diff.codes);
+      block.history.record_all(diff.changed_at);
+      return;
+    }
+    BlockCodes codes = block.codes.unpack();
+    codes.overlay(diff.codes);
+    block.codes = CodeBlock(codes);
+    block.history.record(diff.changed_at, diff.codes.known);
+  });
+}
+
+bool Replica::forget(const KeyInterval& keys) {
+  if (!holdings_.forget(keys)) return false;
+  blocks_.erase(keys);
+  digest_.erase(keys);
+  return true;
+}
+
+}  // namespace warren

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/layer/diff_packet.hpp"
+#include "core/layer/digest.hpp"
+#include "core/layer/holdings.hpp"
+#include "core/layer/layer_blocks.hpp"
+
+namespace warren {
+
+enum class ApplyResult : std::uint8_t {
+  kApplied,    // at least a part of what is claimed was news
+  kDuplicate,  // all of it is held already
+  kGap,        // it begins after what is held
+  kTooManyIntervals,
+  kMalformed,
+  kUnknownVersion,
+  kOtherLayer,
+};
+inline constexpr std::size_t kApplyResults = 7;
+
+// The codes of one block as they are now; empty if nothing is known of it any more.
+struct PublishedBlock {
+  BlockOrdinal block = 0;
+  CodeBlock codes;
+};
+
+// A block as a store keeps it.
+struct StoredBlock {
+  BlockOrdinal block = 0;
+  Revision changed_at;
+  CodeBlock codes;
+};
+
+struct EncodeRequest {
+  KeyInterval keys;
+  Revision from;                   // what the receivers hold there
+  std::size_t limit_bytes = 1200;  // per packet, at least kPacketBytesMin
+};
+
+// A layer: the one that its origin writes, or a copy of it. Invariant: every block is exactly the
+// origin's as of the revision held there. Only publish() makes revisions, and only the origin may
+// call it; copies change by packets, which arrive in any order, twice or never.
+class Replica {
+ public:
+  explicit Replica(const LayerId& id) : id_(id) {}
+  // As it was stored. What changed when within a block is forgotten.
+  Replica(const LayerId& id, const Holdings& holdings, std::span<const StoredBlock> blocks);
+
+  const LayerId& id() const { return id_; }
+  const Holdings& holdings() const { return holdings_; }
+  const LayerDigest& digest() const { return digest_; }
+  // Null if nothing was ever known of it.
+  const LayerBlock* find(BlockOrdinal block) const { return blocks_.find(block); }
+  // Calls visit(BlockOrdinal, const LayerBlock&) in key order for the blocks changed after `from`,
+  // as long as it returns true; emptied ones are among them.
+  template <typename Visit>
+  void for_each_changed(const KeyInterval& keys, Revision from, Visit&& visit) const {
+    blocks_.for_each_changed(keys, from, visit);
+  }
+
+  // The regions of 8x8x8 blocks changed after `from`, latest first, at most `most` of them: where a
+  // catch-up begins.
+  std::vector<KeyInterval> regions_by_change(Revision from, std::size_t most) const {
+    return blocks_.regions_by_change(from, most);
+  }
+
+  // Makes the next revision, in which these blocks have these codes, and returns it. The revision
+  // stays if no code differs. Preconditions: the whole layer is held at one revision, and no block
+  // comes twice.
+  Revision publish(std::span<const PublishedBlock> blocks);
+
+  // The first packet of what receivers lack who hold `from`: its claim begins at the first key of
+  // the request where more than `from` is held, and the next request at the claim's end. Nothing
+  // when there is nothing to tell.
+  std::optional<DiffPacket> encode(const EncodeRequest& request) const;
+
+  // Takes from a packet whatever is news here; all or nothing of it. Never trusts it.
+  ApplyResult apply(const LayerId& layer, std::span<const std::uint8_t> packet);
+  // How often apply() returned each result.
+  const std::array<std::uint64_t, kApplyResults>& apply_counts() const { return apply_counts_; }
+
+  // Empties these blocks and holds nothing there; false if that made too many intervals.
+  bool forget(const KeyInterval& keys);
+  // Gives back memory: blocks unchanged since `until` will be told as a whole to who lacks them.
+  void drop_history(Revision until) { blocks_.drop_history(until); }
+
+  std::size_t memory_bytes() const { return blocks_.memory_bytes() + digest_.memory_bytes(); }
+
+ private:
+  ApplyResult judge_and_apply(const LayerId& layer, std::span<const std::uint8_t> packet);
+  void apply(const BlockDiff& diff);
+  template <typename Change>
+  void change(BlockOrdinal block, Change&& change);
+
+  LayerId id_;
+  Holdings holdings_;
+  LayerBlocks blocks_;
+  LayerDigest digest_;
+  std::array<std::uint64_t, kApplyResults> apply_counts_{};
+};
+
+}  // namespace warren

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/layer/replica.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/core/layer/random_codes.hpp"
+
+using namespace warren;
+
+namespace {
+
+constexpr LayerId kLayer{7, 1, 0x1234};
+
+PublishedBlock block_with(BlockOrdinal block, std::uint32_t place, VoxelCode code) {
+  BlockCodes codes;
+  codes.set(place, code);
+  return {block, CodeBlock(codes)};
+}
+
+void publish(Replica& origin, const std::vector<PublishedBlock>& blocks) {
+  const Revision before = origin.holdings().at(0);
+  REQUIRE(origin.publish(blocks).number == before.number + 1);
+}
+
+DiffPacket encoded(const Replica& sender, std::uint32_t from, KeyInterval keys = {}) {
+  const auto packet = sender.encode({keys, {from}});
+  REQUIRE(packet);
+  return *packet;
+}
+
+std::vector<DiffPacket> encode_all(const Replica& sender, Revision from, std::size_t limit_bytes) {
+  std::vector<DiffPacket> packets;
+  KeyInterval keys;
+  while (auto packet = sender.encode({keys, from, limit_bytes})) {
+    keys.first = packet->claim.keys.end;
+    packets.push_back(std::move(*packet));
+  }
+  return packets;
+}
+
+ApplyResult apply(Replica& receiver, const DiffPacket& packet) {
+  return receiver.apply(kLayer, packet.bytes);
+}
+
+bool same(const Replica& a, const Replica& b, BlockOrdinal block) {
+  const auto codes = [block](const Replica& replica) {
+    const LayerBlock* const found = replica.find(block);
+    return found != nullptr ? found->codes : CodeBlock{};
+  };
+  return codes(a) == codes(b);
+}
+
+// A layer with so many blocks of noise.
+Replica noisy_layer(std::size_t blocks) {
+  test::Random random(1);
+  std::vector<PublishedBlock> changes;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    changes.push_back({random() % kOrdinalEnd, CodeBlock(test::random_codes(random))});
+  }
+  Replica origin(kLayer);
+  publish(origin, changes);
+  return origin;
+}
+
+}  // namespace
+
+TEST_CASE("a tick without changes is no revision") {
+  Replica origin(kLayer);
+  CHECK(origin.publish({}) == Revision{0});
+  const auto block = block_with(5, 3, VoxelCode::free());
+  CHECK(origin.publish({{block}}) == Revision{1});
+  CHECK(origin.publish({{block}}) == Revision{1});
+  CHECK(origin.publish({{PublishedBlock{6, {}}}}) == Revision{1});
+  CHECK_FALSE(origin.encode({{}, {1}}));
+}
+
+TEST_CASE("a change of a cost or of a stair alone is told") {
+  Replica origin(kLayer);
+  Replica copy(kLayer);
+  for (const auto& [cost, stair] : {std::pair{3, false}, {4, false}, {4, true}, {0, true}}) {
+    const auto code = VoxelCode::occupied(static_cast<CostCode>(cost), stair);
+    publish(origin, {block_with(9, 100, code)});
+    CHECK(apply(copy, encoded(origin, copy.holdings().at(9).number)) == ApplyResult::kApplied);
+    CHECK(copy.find(9)->codes.at(100) == code);
+  }
+}
+
+TEST_CASE("a packet is news once, and a gap until what it builds on is held") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::free())});
+  const DiffPacket first = encoded(origin, 0);
+  publish(origin, {block_with(9, 2, VoxelCode::free())});
+  const DiffPacket second = encoded(origin, 1);
+  const DiffPacket both = encoded(origin, 0);
+
+  Replica copy(kLayer);
+  CHECK(apply(copy, second) == ApplyResult::kGap);
+  CHECK(apply(copy, first) == ApplyResult::kApplied);
+  CHECK(apply(copy, first) == ApplyResult::kDuplicate);
+  CHECK(apply(copy, both) == ApplyResult::kApplied);
+  CHECK(apply(copy, second) == ApplyResult::kDuplicate);
+  CHECK(same(copy, origin, 9));
+  CHECK(copy.apply_counts() == std::array<std::uint64_t, kApplyResults>{2, 2, 1, 0, 0, 0, 0});
+}
+
+TEST_CASE("silence about a block is knowledge") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::free())});
+  Replica copy(kLayer);
+  const DiffPacket nothing = encoded(origin, 0, {100, 200});
+  CHECK(nothing.bytes.size() < 16);
+  CHECK(apply(copy, nothing) == ApplyResult::kApplied);
+  CHECK(copy.holdings().at(150) == Revision{1});
+  CHECK(copy.holdings().at(9) == Revision{0});
+}
+
+TEST_CASE("the packets of one tick tile the key space and keep to their limit") {
+  const Replica origin = noisy_layer(300);
+  for (const std::size_t limit : {std::size_t{440}, std::size_t{1200}}) {
+    const auto packets = encode_all(origin, {}, limit);
+    CHECK(packets.size() > 20);
+    Replica copy(kLayer);
+    BlockOrdinal next = 0;
+    for (const DiffPacket& packet : packets) {
+      CHECK(packet.bytes.size() <= limit);
+      CHECK(packet.claim.keys.first == next);
+      next = packet.claim.keys.end;
+      CHECK(apply(copy, packet) == ApplyResult::kApplied);
+    }
+    CHECK(next == kOrdinalEnd);
+    CHECK(copy.holdings() == Holdings(Revision{1}));
+    origin.for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock&) {
+      CHECK(same(copy, origin, block));
+      return true;
+    });
+  }
+}
+
+TEST_CASE("an emptied block is emptied at every copy, and passed on by them") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::occupied(3, false))});
+  Replica late(kLayer);
+  CHECK(apply(late, encoded(origin, 0)) == ApplyResult::kApplied);
+  publish(origin, {{9, {}}});
+  Replica relay(kLayer);
+  CHECK(apply(relay, encoded(origin, 0)) == ApplyResult::kApplied);
+  CHECK(apply(late, encoded(relay, 1)) == ApplyResult::kApplied);
+  CHECK(late.find(9)->codes.empty());
+}
+
+TEST_CASE("a relay tells no more of a block than changed since, though it was fed in bulk") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::free())});
+  publish(origin, {block_with(5000, 1, VoxelCode::free())});
+  Replica relay(kLayer);
+  CHECK(apply(relay, encoded(origin, 0)) == ApplyResult::kApplied);
+  std::vector<BlockOrdinal> told;
+  relay.for_each_changed({}, {1}, [&](BlockOrdinal block, const LayerBlock&) {
+    told.push_back(block);
+    return true;
+  });
+  CHECK(told == std::vector<BlockOrdinal>{5000});
+}
+
+TEST_CASE("regions are found by their latest change") {
+  Replica origin(kLayer);
+  const auto free = VoxelCode::free();
+  publish(origin, {block_with(100, 1, free), block_with(600, 1, free), block_with(2000, 1, free)});
+  publish(origin, {block_with(600, 2, free)});
+  publish(origin, {block_with(101, 2, free)});
+  using Regions = std::vector<KeyInterval>;
+  const KeyInterval first{0, 512};
+  const KeyInterval second{512, 1024};
+  CHECK(origin.regions_by_change({1}, 16) == Regions{first, second});
+  CHECK(origin.regions_by_change({2}, 16) == Regions{first});
+  CHECK(origin.regions_by_change({0}, 2) == Regions{first, second});
+  CHECK(origin.regions_by_change({0}, 16).size() == 3);
+}
+
+TEST_CASE("many regions are told in key order, few changed ones without looking at the rest") {
+  Replica origin(kLayer);
+  std::vector<PublishedBlock> everywhere;
+  for (BlockOrdinal region = 0; region < 700; ++region) {
+    everywhere.push_back(block_with(region << 9 | 7, 1, VoxelCode::free()));
+  }
+  publish(origin, everywhere);
+  publish(origin, {block_with(650 << 9 | 7, 2, VoxelCode::free()), block_with(3, 2, {})});
+  const auto told = [&](const KeyInterval& keys, Revision from) {
+    std::vector<BlockOrdinal> blocks;
+    origin.for_each_changed(keys, from, [&](BlockOrdinal block, const LayerBlock&) {
+      blocks.push_back(block);
+      return true;
+    });
+    return blocks;
+  };
+  const auto all = told({}, {0});
+  CHECK(all.size() == 700);
+  CHECK(std::is_sorted(all.begin(), all.end()));
+  CHECK(told({512, 600 << 9}, {0}).size() == 599);
+  CHECK(told({}, {1}) == std::vector<BlockOrdinal>{650 << 9 | 7});
+}
+
+TEST_CASE("what is not a packet of this layer and version changes nothing") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::free())});
+  DiffPacket packet = encoded(origin, 0);
+  Replica copy(kLayer);
+  LayerId other = kLayer;
+  ++other.incarnation;
+  CHECK(copy.apply(other, packet.bytes) == ApplyResult::kOtherLayer);
+  packet.bytes[0] = kPacketVersion + 1;
+  CHECK(apply(copy, packet) == ApplyResult::kUnknownVersion);
+  packet.bytes[0] = kPacketVersion;
+  packet.bytes.pop_back();
+  CHECK(apply(copy, packet) == ApplyResult::kMalformed);
+  CHECK(copy.find(9) == nullptr);
+  CHECK(copy.holdings() == Holdings());
+}
+
+TEST_CASE("a malformed end undoes nothing, because nothing was done") {
+  const Replica origin = noisy_layer(20);
+  const auto packets = encode_all(origin, {}, 1400);
+  Replica copy(kLayer);
+  for (DiffPacket packet : packets) {
+    packet.bytes.back() = static_cast<std::uint8_t>(packet.bytes.back() ^ 1);
+    packet.bytes.push_back(0);
+    CHECK(apply(copy, packet) == ApplyResult::kMalformed);
+  }
+  CHECK(copy.holdings() == Holdings());
+  std::size_t blocks = 0;
+  copy.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock&) { return ++blocks > 0; });
+  CHECK(blocks == 0);
+}
+
+TEST_CASE("a replica survives packets with any bit flipped, one after the other") {
+  const Replica origin = noisy_layer(3);
+  DiffPacket packet = encoded(origin, 0);
+  Replica copy(kLayer);
+  for (std::size_t bit = 0; bit < packet.bytes.size() * 8; ++bit) {
+    auto& byte = packet.bytes[bit / 8];
+    byte = static_cast<std::uint8_t>(byte ^ 1U << bit % 8);
+    apply(copy, packet);
+    byte = static_cast<std::uint8_t>(byte ^ 1U << bit % 8);
+    CHECK(copy.holdings().intervals().size() <= Holdings::kIntervalsMax);
+    if (bit % 50 == 0) copy = Replica(kLayer);
+  }
+}
+
+TEST_CASE("forgotten blocks are empty, not held, and can be had again") {
+  const Replica origin = noisy_layer(50);
+  Replica copy(kLayer);
+  for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
+  const std::size_t full = copy.memory_bytes();
+  const KeyInterval half{kOrdinalEnd / 4, kOrdinalEnd / 2};
+  CHECK(copy.forget(half));
+  CHECK(copy.memory_bytes() < full);
+  CHECK(copy.holdings().at(half.first) == Revision{0});
+  copy.for_each_changed(half, {}, [](BlockOrdinal, const LayerBlock&) {
+    FAIL("a block is left");
+    return true;
+  });
+  for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
+  CHECK(copy.holdings() == origin.holdings());
+}
+
+TEST_CASE("a copy takes at most 2.5 bytes per known voxel") {
+  std::vector<PublishedBlock> changes;
+  std::uint64_t known = 0;
+  for (std::int32_t x = 0; x < 100; ++x) {
+    for (std::int32_t y = 0; y < 5; ++y) {
+      BlockCodes codes;
+      for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+        const VoxelKey at = place_of_morton9(place);
+        if (at.z == 2) codes.set(place, VoxelCode::occupied(3, false));
+        if (at.z > 2 && at.z < 6) codes.set(place, VoxelCode::free());
+        known += at.z >= 2 && at.z < 6 ? 1 : 0;
+      }
+      changes.push_back({ordinal_of({x, y, 0}), CodeBlock(codes)});
+    }
+  }
+  Replica origin(kLayer);
+  publish(origin, changes);
+  CHECK(origin.memory_bytes() < known * 5 / 2);
+  Replica copy(kLayer);
+  for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
+  CHECK(copy.memory_bytes() < known * 5 / 2);
+}
