@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "the wire's floats are
 static_assert(sizeof(Point3f) == kPointBytes);
 
 // Extras have no use yet: they are read over through one buffer of this size.
-constexpr std::size_t kSkipBytes = 16 * 1024;
+constexpr std::size_t kSkipBytes = std::size_t{16} * 1024;
 
 }  // namespace
 

@@ -19,7 +19,7 @@ namespace warren {
 class IngestDecoder {
  public:
   // What is read in one piece, at most.
-  static constexpr std::size_t kChunkBytes = 256 * 1024;
+  static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
 
   // Where the next bytes of the stream go; never empty.
   std::span<std::byte> buffer();

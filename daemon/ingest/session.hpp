@@ -33,9 +33,9 @@ class IngestSession : public std::enable_shared_from_this<IngestSession> {
  public:
   using Socket = asio::local::stream_protocol::socket;
   // Replies to a client that does not read them wait up to here; then new ones are dropped.
-  static constexpr std::size_t kMaxUnsentBytes = 64 * 1024;
+  static constexpr std::size_t kMaxUnsentBytes = std::size_t{64} * 1024;
   // What the socket's buffer can hold when the daemon stops is less than this.
-  static constexpr std::size_t kMaxDrainBytes = 4 * 1024 * 1024;
+  static constexpr std::size_t kMaxDrainBytes = std::size_t{4} * 1024 * 1024;
   static constexpr std::chrono::seconds kFlushTime{1};
 
   IngestSession(Socket socket, ClientId id, const IngestLimits& limits,
