@@ -21,9 +21,7 @@ struct LayerId {
 // Number of a publishing tick of a layer; 0 is the empty layer before the first.
 struct Revision {
   std::uint32_t number = 0;
-  // clang-tidy 14 takes the 0 of the defaulted comparison for a pointer.
-  friend auto operator<=>(const Revision&,
-                          const Revision&) = default;  // NOLINT(modernize-use-nullptr)
+  friend auto operator<=>(const Revision&, const Revision&) = default;
 };
 
 // Position of a block in the order of all blocks: the Morton code of its key. Regions of 8x8x8

@@ -87,7 +87,7 @@ struct Reader {
     return {};
   }
   Result operator()(std::string* value) const {
-    if (const auto text = no_text(); !text) return text;
+    if (auto text = no_text(); !text) return text;
     const std::string& name = scalar().text;
     if (name.empty() || name.size() > kMaxNameBytes || name.front() == '-' ||
         name.find_first_not_of(kNameCharacters) != std::string::npos) {
@@ -97,7 +97,7 @@ struct Reader {
     return {};
   }
   Result operator()(std::filesystem::path* value) const {
-    if (const auto text = no_text(); !text) return text;
+    if (auto text = no_text(); !text) return text;
     const std::string& path = scalar().text;
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
     if (path.empty() || path.front() != '/') return Failure("is not an absolute path");
@@ -107,7 +107,7 @@ struct Reader {
     return {};
   }
   Result operator()(FileMode* value) const {
-    if (const auto text = no_text(); !text) return text;
+    if (auto text = no_text(); !text) return text;
     std::uint32_t bits = 0;
     const char* end = scalar().text.data() + scalar().text.size();
     const auto [stop, error] = std::from_chars(scalar().text.data(), end, bits, 8);
@@ -129,7 +129,7 @@ struct Reader {
     return {};
   }
   Result operator()(const ChoiceSlot& choice) const {
-    if (const auto text = no_text(); !text) return text;
+    if (auto text = no_text(); !text) return text;
     const auto found = std::find(rule.choices.begin(), rule.choices.end(), scalar().text);
     if (found == rule.choices.end()) return Failure("is none of these");
     *choice.value = static_cast<unsigned char>(found - rule.choices.begin());

@@ -73,7 +73,8 @@ void IngestServer::add(IngestSession::Socket socket) {
 }
 
 void IngestServer::on_message(IngestSession& session, IngestMessage&& message) {
-  std::visit([&](auto&& body) { take(session, std::move(body)); }, std::move(message));
+  std::visit([&](auto&& body) { take(session, std::forward<decltype(body)>(body)); },
+             std::move(message));
 }
 
 void IngestServer::take(IngestSession& session, HelloMessage&& hello) {

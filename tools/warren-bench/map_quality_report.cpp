@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +12,7 @@ namespace {
 
 // 0.5 becomes 0p5m.
 std::string distance_name(double distance_m) {
-  const int tenths = static_cast<int>(10.0 * distance_m + 0.5);
+  const long tenths = std::lround(10.0 * distance_m);
   return fmt::format("{}p{}m", tenths / 10, tenths % 10);
 }
 

@@ -58,8 +58,7 @@ tl::expected<void, std::string> render(const World& world, const std::filesystem
       {"robot.png", eye_view(eye, world.start_yaw_rad, 0.0, 80.0 * kDegree), {}},
   };
   for (const Picture& picture : pictures) {
-    const auto written =
-        write_png(draw(caster, picture.view, picture.style), directory / picture.name);
+    auto written = write_png(draw(caster, picture.view, picture.style), directory / picture.name);
     if (!written) return written;
   }
   return {};

@@ -17,7 +17,6 @@ Predecessors settle_until(const PassageGraph& graph, std::uint32_t from, std::ui
   struct Open {
     double length_m;
     std::uint32_t node;
-    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 behind <=> for a pointer
     auto operator<=>(const Open&) const = default;
   };
   const auto near = graph.neighbours(true);

@@ -42,11 +42,12 @@ TriangleMesh rails(const std::vector<Eigen::Vector3d>& line, const Rails& settin
     for (const double side : {-0.5, 0.5})
       mesh.append(
           bar(-0.02, length_m + 0.02, side * settings.gauge_m, settings.rail_width_m, top_m), T);
-    for (; to_sleeper_m < length_m; to_sleeper_m += settings.sleeper_every_m) {
+    while (to_sleeper_m < length_m) {
       const double half_m = settings.sleeper_width_m / 2.0;
       mesh.append(bar(to_sleeper_m - half_m, to_sleeper_m + half_m, 0.0, settings.sleeper_length_m,
                       settings.sleeper_height_m),
                   T);
+      to_sleeper_m += settings.sleeper_every_m;
     }
     to_sleeper_m -= length_m;
   }

@@ -53,6 +53,7 @@ Eigen::Vector3d Stairway::top() const { return at((steps - 1.0) * run_m, 0.0, st
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
+  names.reserve(kPresets.size());
   for (const Preset& preset : kPresets) names.emplace_back(preset.name);
   return names;
 }

@@ -30,10 +30,9 @@ TEST_CASE("the ending of a file, in any case, says its format") {
         {"a.xyz", sample_text()},
         {"a.dat", sample_text()},
         {"a.Csv", sample_text()}}) {
-    CAPTURE(name);
     const auto cloud = read_cloud(folder.write(name, bytes));
     REQUIRE_MESSAGE(cloud, cloud.error());
-    CHECK(cloud->points == kSamplePoints);
+    CHECK_MESSAGE(cloud->points == kSamplePoints, name);
   }
 }
 

@@ -54,7 +54,7 @@ std::unique_ptr<octomap::OcTree> read_tree(const std::filesystem::path& file) {
   }
   std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(file.string()));
   auto* const occupancy = dynamic_cast<octomap::OcTree*>(tree.get());
-  if (occupancy != nullptr) tree.release();
+  if (occupancy != nullptr) static_cast<void>(tree.release());
   return std::unique_ptr<octomap::OcTree>(occupancy);
 }
 

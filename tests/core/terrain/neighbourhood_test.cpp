@@ -81,8 +81,10 @@ TEST_CASE("of neighbours equally far, the first in the cloud count") {
   CloudReducer reducer(0.05F);
   std::vector<Point3f> grid;
   for (int i = 0; i < 1000; ++i) {
-    grid.push_back({static_cast<float>(i % 10) + 0.5F, static_cast<float>(i / 10 % 10) + 0.5F,
-                    static_cast<float>(i / 100) + 0.5F});
+    const int layer = i / 100;
+    const int row = i / 10 % 10;
+    grid.push_back({static_cast<float>(i % 10) + 0.5F, static_cast<float>(row) + 0.5F,
+                    static_cast<float>(layer) + 0.5F});
   }
   CHECK(count_wrong(reducer.reduce(grid), 24) == 0);
 }
