@@ -22,17 +22,16 @@ std::vector<std::string> names_of(const std::vector<std::filesystem::path>& file
 
 TEST_CASE("the ending of a file, in any case, says its format") {
   const TemporaryFolder folder;
-  for (const auto& [name, bytes] :
-       {std::pair<std::string, std::string>{"a.PCD", sample_pcd_binary()},
-        {"a.ply", sample_ply_binary()},
-        {"a.bin", sample_kitti()},
-        {"a.txt", sample_text()},
-        {"a.xyz", sample_text()},
-        {"a.dat", sample_text()},
-        {"a.Csv", sample_text()}}) {
-    const auto cloud = read_cloud(folder.write(name, bytes));
+  for (const auto& sample : {std::pair<std::string, std::string>{"a.PCD", sample_pcd_binary()},
+                             {"a.ply", sample_ply_binary()},
+                             {"a.bin", sample_kitti()},
+                             {"a.txt", sample_text()},
+                             {"a.xyz", sample_text()},
+                             {"a.dat", sample_text()},
+                             {"a.Csv", sample_text()}}) {
+    const auto cloud = read_cloud(folder.write(sample.first, sample.second));
     REQUIRE_MESSAGE(cloud, cloud.error());
-    CHECK_MESSAGE(cloud->points == kSamplePoints, name);
+    CHECK_MESSAGE(cloud->points == kSamplePoints, sample.first);
   }
 }
 
