@@ -40,7 +40,7 @@ KeyInterval random_keys(test::Random& random) {
 template <typename Change>
 Oracle changed(Oracle oracle, const KeyInterval& keys, Change&& change) {
   for (std::size_t i = keys.first; i < std::min<BlockOrdinal>(keys.end, kKeys); ++i) {
-    oracle[i] = change(oracle[i]);
+    oracle[i] = static_cast<Oracle::value_type>(change(oracle[i]));
   }
   return oracle;
 }
