@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/exchange/cloud_writer.hpp"
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -22,13 +21,13 @@ std::vector<float> occupied_rows(const MapSnapshot& map, const LayerOrigin& shif
   };
   std::vector<float> rows;
   rows.reserve(kColumns.size() * map.voxels.counts().occupied);
-  map.voxels.for_each_known_voxel(
-      KeyBox{}, [&](const VoxelKey& key, VoxelState state, float log_odds) {
-        if (state != VoxelState::kOccupied) return;
-        rows.insert(rows.end(),
-                    {centre(key.x + shift.x), centre(key.y + shift.y), centre(key.z + shift.z),
-                     1.0F / (1.0F + std::exp(-log_odds)), map.voxels.cost(key).value_or(kNoData)});
-      });
+  map.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state,
+                                                float log_odds) {
+    if (state != VoxelState::kOccupied) return;
+    rows.insert(rows.end(), {centre(key.x + shift.x), centre(key.y + shift.y),
+                             centre(key.z + shift.z), static_cast<float>(probability_of(log_odds)),
+                             map.voxels.cost(key).value_or(kNoData)});
+  });
   return rows;
 }
 

@@ -37,23 +37,24 @@ KeyInterval Holdings::interval_around(BlockOrdinal block) const {
   return {intervals_[index].first, end_of(index)};
 }
 
-Revision Holdings::lowest(const KeyInterval& keys) const {
+template <typename Visit>
+void Holdings::for_each_held(const KeyInterval& keys, Visit&& visit) const {
   assert(!keys.empty());
-  Revision lowest = at(keys.first);
   for (std::size_t i = index_of(keys.first); i < intervals_.size(); ++i) {
     if (intervals_[i].first >= keys.end) break;
-    lowest = std::min(lowest, intervals_[i].held);
+    visit(intervals_[i].held);
   }
+}
+
+Revision Holdings::lowest(const KeyInterval& keys) const {
+  Revision lowest = at(keys.first);
+  for_each_held(keys, [&](Revision held) { lowest = std::min(lowest, held); });
   return lowest;
 }
 
 Revision Holdings::highest(const KeyInterval& keys) const {
-  assert(!keys.empty());
   Revision highest = at(keys.first);
-  for (std::size_t i = index_of(keys.first); i < intervals_.size(); ++i) {
-    if (intervals_[i].first >= keys.end) break;
-    highest = std::max(highest, intervals_[i].held);
-  }
+  for_each_held(keys, [&](Revision held) { highest = std::max(highest, held); });
   return highest;
 }
 

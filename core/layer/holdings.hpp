@@ -51,6 +51,8 @@ class Holdings {
   friend bool operator==(const Holdings&, const Holdings&) = default;
 
  private:
+  template <typename Visit>
+  void for_each_held(const KeyInterval& keys, Visit&& visit) const;
   template <typename NewHeld>
   std::vector<Interval> mapped(const KeyInterval& keys, NewHeld&& new_held) const;
   std::size_t index_of(BlockOrdinal block) const;

@@ -29,13 +29,6 @@ double low_corner_m(std::uint32_t tile, double cell_m) {
   return (static_cast<double>(tile) * kTileCells - kCellLimit) * cell_m;
 }
 
-float squared_distance(const Point3f& a, const Point3f& b) {
-  const float x = a.x - b.x;
-  const float y = a.y - b.y;
-  const float z = a.z - b.z;
-  return x * x + y * y + z * z;
-}
-
 struct CellSum {
   double x = 0.0;
   double y = 0.0;

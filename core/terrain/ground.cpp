@@ -2,11 +2,12 @@
 #include "core/terrain/ground.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "core/voxel/voxel_ray.hpp"
 
 namespace warren {
 namespace {
@@ -17,45 +18,6 @@ constexpr double kFarthest_m = 1e6;
 std::size_t columns_along(double edge_m, double resolution_m) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(edge_m / (resolution_m / 2.0))));
 }
-
-// The voxels along a ray, every one that it enters, up to a length.
-class VoxelWalk {
- public:
-  // Precondition: `start` lies in the key space.
-  VoxelWalk(const Lattice& lattice, const Eigen::Vector3d& start, const Eigen::Vector3d& direction)
-      : key_(*lattice.key_of(start.x(), start.y(), start.z())) {
-    const std::array<std::int32_t, 3> key{key_.x, key_.y, key_.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      const double speed = direction[axis];
-      if (speed == 0.0) continue;
-      const double border = (key[i] + (speed > 0.0 ? 1 : 0)) * lattice.resolution_m();
-      step_[i] = speed > 0.0 ? 1 : -1;
-      per_voxel_m_[i] = lattice.resolution_m() / std::abs(speed);
-      next_m_[i] = std::max(0.0, (border - start[axis]) / speed);
-    }
-  }
-
-  const VoxelKey& key() const { return key_; }
-  // Where the ray enters the present voxel, along it.
-  double entered_m() const { return entered_m_; }
-  void advance() {
-    const auto axis = static_cast<std::size_t>(std::min_element(next_m_.begin(), next_m_.end()) -
-                                               next_m_.begin());
-    (axis == 0 ? key_.x : axis == 1 ? key_.y : key_.z) += step_[axis];
-    entered_m_ = next_m_[axis];
-    next_m_[axis] += per_voxel_m_[axis];
-  }
-
- private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
-
-  VoxelKey key_;
-  std::array<std::int32_t, 3> step_{};
-  std::array<double, 3> per_voxel_m_{};
-  std::array<double, 3> next_m_{kNever, kNever, kNever};
-  double entered_m_ = 0.0;
-};
 
 // The columns of a footprint, row by row.
 class Columns {
@@ -99,12 +61,14 @@ class Columns {
   }
 
   std::optional<VoxelKey> ground_under(const Eigen::Vector3d& start) const {
-    const auto in_key_space = map_.lattice().key_of(start.x(), start.y(), start.z());
-    if (!in_key_space) return std::nullopt;
+    const auto first = map_.lattice().key_of(start.x(), start.y(), start.z());
+    if (!first) return std::nullopt;
+    const Eigen::Vector3d& down = query_.gravity;
     const double length_m = query_.above_m + query_.below_m;
-    for (VoxelWalk walk(map_.lattice(), start, query_.gravity); walk.entered_m() <= length_m;
-         walk.advance()) {
-      if (map_.state(walk.key()) == VoxelState::kOccupied) return walk.key();
+    VoxelRay ray(map_.lattice(), *first, {start.x(), start.y(), start.z()},
+                 {down.x(), down.y(), down.z()});
+    for (; ray.entered_m() <= length_m && ray.in_key_space(); ray.advance()) {
+      if (map_.state(ray.key()) == VoxelState::kOccupied) return ray.key();
     }
     return std::nullopt;
   }

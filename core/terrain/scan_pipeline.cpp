@@ -8,9 +8,9 @@ PipelineReport ScanPipeline::run(const LayerScan& scan, const Point3f& gravity, 
   report.integration = map.integrate(scan);
   TerrainScan ground{scan.points_layer, scan.origin_layer, gravity, std::nullopt};
   if (scan.max_range_m) ground.max_range_m = static_cast<float>(*scan.max_range_m);
-  judged_ = judge_.judge(ground);
+  const auto judged = judge_.judge(ground);
   report.terrain = judge_.report();
-  report.costs = map.fuse_costs(gatherer_.gather(judged_, scan.origin_layer, map.lattice()));
+  report.costs = map.fuse_costs(gatherer_.gather(judged, scan.origin_layer, map.lattice()));
   return report;
 }
 

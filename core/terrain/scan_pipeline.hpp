@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "core/terrain/terrain_judge.hpp"
 #include "core/terrain/voxel_cost_gatherer.hpp"
 #include "core/voxel/scan.hpp"
@@ -27,14 +24,11 @@ class ScanPipeline {
   // judged.
   PipelineReport run(const LayerScan& scan, const Point3f& gravity, SelfMap& map);
 
-  // Of the scan run last; lives until the next.
-  std::span<const JudgedPoint> judged() const { return judged_; }
   const TerrainConfig& terrain() const { return judge_.config(); }
 
  private:
   TerrainJudge judge_;
   VoxelCostGatherer gatherer_;
-  std::span<const JudgedPoint> judged_;
 };
 
 }  // namespace warren

@@ -6,13 +6,6 @@
 namespace warren {
 namespace {
 
-float distance_m(const Point3f& a, const Point3f& b) {
-  const float x = a.x - b.x;
-  const float y = a.y - b.y;
-  const float z = a.z - b.z;
-  return std::sqrt(x * x + y * y + z * z);
-}
-
 Evidence evidence_of(NeighbourhoodState state) {
   switch (state) {
     case NeighbourhoodState::kFound:
@@ -59,7 +52,7 @@ void TerrainJudge::weigh_evidence(const Point3f& origin) {
   ranges_m_.resize(cloud_->size());
   const EvidenceConfig& config = config_.evidence;
   for (std::size_t i = 0; i < cloud_->size(); ++i) {
-    ranges_m_[i] = distance_m(cloud_->point(i), origin);
+    ranges_m_[i] = std::sqrt(squared_distance(cloud_->point(i), origin));
     Evidence evidence = evidence_of(neighbourhoods_->states[i]);
     if (evidence == Evidence::kPlane) {
       const float radius_m = std::sqrt(neighbourhoods_->squared_radius[i]);

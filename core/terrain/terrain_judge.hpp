@@ -23,7 +23,7 @@ struct TerrainConfig {
 
   // Eq. 3 as printed, neighbourhoods of any width.
   static TerrainConfig paper();
-  // The same with steps, and no data where neighbourhoods are too wide; chosen by
+  // The same with roughness and steps, and no data where neighbourhoods are too wide; chosen by
   // `warren-bench terrain-quality`.
   static TerrainConfig robust();
 };

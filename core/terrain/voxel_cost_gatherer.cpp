@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/terrain/voxel_cost_gatherer.hpp"
 
-#include <cmath>
-
 namespace warren {
 namespace {
 
@@ -14,13 +12,6 @@ std::uint64_t code_of(const VoxelKey& key) {
 float information_at(float squared_range) {
   constexpr float kHalf = VoxelCostGatherer::kHalfInformationRange_m;
   return 1.0F / (1.0F + squared_range / (kHalf * kHalf));
-}
-
-float squared_distance(const VoxelKey& key, const Point3f& origin, const Lattice& lattice) {
-  const auto x = static_cast<float>(lattice.centre_m(key.x)) - origin.x;
-  const auto y = static_cast<float>(lattice.centre_m(key.y)) - origin.y;
-  const auto z = static_cast<float>(lattice.centre_m(key.z)) - origin.z;
-  return x * x + y * y + z * z;
 }
 
 }  // namespace
@@ -42,7 +33,8 @@ std::span<const VoxelCost> VoxelCostGatherer::gather(std::span<const JudgedPoint
   }
   for (std::size_t i = 0; i < costs_.size(); ++i) {
     costs_[i].cost = sums_[i].cost / static_cast<float>(sums_[i].points);
-    costs_[i].information = information_at(squared_distance(costs_[i].key, origin_layer, lattice));
+    costs_[i].information =
+        information_at(squared_distance(lattice.centre(costs_[i].key), origin_layer));
   }
   return costs_;
 }

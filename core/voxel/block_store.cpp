@@ -90,18 +90,20 @@ std::optional<std::int16_t> BlockStore::value(const VoxelKey& key, std::int16_t 
   return values_.value(held.values[cell], held.stored(cell), place & 63);
 }
 
-std::optional<FusedCost> BlockStore::cost(const VoxelKey& key) const {
-  const BlockSlot slot = slot_of(block_of(key));
-  if (slot < kFirstBlockSlot) return std::nullopt;
-  return cost(block(slot), morton9(key.x, key.y, key.z));
-}
-
 std::optional<FusedCost> BlockStore::cost(const Block& block, std::uint32_t place) const {
   if (block.costs == 0) return std::nullopt;
   const BlockCosts& costs = block_costs_[block.costs - 1];
   const std::size_t cell = place >> 6;
   if ((costs.costed[cell] >> (place & 63) & 1) == 0) return std::nullopt;
   return costs_.value(costs.values[cell], costs.costed[cell], place & 63);
+}
+
+std::uint64_t BlockStore::unpack_costs(const Block& block, std::size_t cell,
+                                       std::array<FusedCost, 64>& costs) const {
+  if (block.costs == 0) return 0;
+  const BlockCosts& held = block_costs_[block.costs - 1];
+  costs_.unpack(held.values[cell], held.costed[cell], costs);
+  return held.costed[cell];
 }
 
 void BlockStore::set_cost(Block& block, std::uint32_t place, const FusedCost& cost) {

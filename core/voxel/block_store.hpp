@@ -84,9 +84,6 @@ class BlockStore {
   // Fixed-point log-odds; nothing when unknown. `minimum` is the free clamp.
   std::optional<std::int16_t> value(const VoxelKey& key, std::int16_t minimum) const;
 
-  // The fused cost of a voxel, whatever its state; nothing when it has none.
-  std::optional<FusedCost> cost(const VoxelKey& key) const;
-
   // The block behind a slot; absent and free ones get one.
   Block& materialise(BlockSlot& slot);
   // Gives back the block's memory if every voxel is at the free clamp.
@@ -96,8 +93,12 @@ class BlockStore {
   const Block& block(BlockSlot slot) const { return pool_[slot - kFirstBlockSlot]; }
   // Gives one voxel of the block its first cost, or another.
   void set_cost(Block& block, std::uint32_t place, const FusedCost& cost);
-  // Nothing when the voxel at this place in the block (Morton code) has none.
+  // The fused cost of the voxel at this place in the block (Morton code), whatever its state;
+  // nothing when it has none.
   std::optional<FusedCost> cost(const Block& block, std::uint32_t place) const;
+  // Writes those of a cell to their places; returns which they are.
+  std::uint64_t unpack_costs(const Block& block, std::size_t cell,
+                             std::array<FusedCost, 64>& costs) const;
   // Voxels at the free clamp keep no cost: what stood there has gone.
   void forget_costs_at_clamp(Block& block);
 

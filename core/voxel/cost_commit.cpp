@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/voxel/cost_commit.hpp"
 
-#include <cmath>
-
 namespace warren {
 namespace {
-
-double probability(float log_odds) {
-  return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds)));
-}
 
 // Finds the blocks of voxels that come in runs.
 class BlockFinder {
@@ -51,11 +45,13 @@ CostFusionReport commit_costs(std::span<const VoxelCost> costs, const CostFusion
       continue;
     }
     const auto before = store.cost(*block, place);
-    const std::int16_t steps =
-        store.values().value(block->values[cell], block->stored(cell), place & 63);
-    const FusedCost after = before
-                                ? fusion.next(*before, measured, probability(model.log_odds(steps)))
-                                : fusion.first(measured);
+    double occupancy = 0.0;
+    if (before && fusion.weighs_occupancy()) {
+      occupancy = probability_of(model.log_odds(
+          store.values().value(block->values[cell], block->stored(cell), place & 63)));
+    }
+    const FusedCost after =
+        before ? fusion.next(*before, measured, occupancy) : fusion.first(measured);
     ++report.voxels_fused;
     if (before == after) continue;
     store.set_cost(*block, place, after);

@@ -68,6 +68,10 @@ class Lattice {
 
   // Centre of the voxel along one axis, metres.
   double centre_m(std::int32_t key) const { return (key + 0.5) * resolution_m_; }
+  Point3f centre(const VoxelKey& key) const {
+    return {static_cast<float>(centre_m(key.x)), static_cast<float>(centre_m(key.y)),
+            static_cast<float>(centre_m(key.z))};
+  }
 
  private:
   static bool in_key_space(double key) { return key >= kKeyMin && key < kKeyMax + 1; }

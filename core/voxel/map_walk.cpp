@@ -30,10 +30,9 @@ void for_each_block(const BlockStore& store, const KeyBox& box, Visit&& visit) {
   }
 }
 
-std::uint64_t& count_for(CostCounts& counts, const std::optional<FusedCost>& cost) {
-  if (!cost) return counts.no_data;
-  if (cost->cost * 10 <= FusedCost::kImpossible) return counts.up_to_0p10;
-  return cost->cost * 5 <= FusedCost::kImpossible ? counts.up_to_0p20 : counts.above_0p20;
+std::uint64_t& count_for(CostCounts& counts, const FusedCost& cost) {
+  if (cost.cost * 10 <= FusedCost::kImpossible) return counts.up_to_0p10;
+  return cost.cost * 5 <= FusedCost::kImpossible ? counts.up_to_0p20 : counts.above_0p20;
 }
 
 VoxelKey voxel_in_block(const BlockKey& block, std::uint32_t place) {
@@ -95,9 +94,11 @@ CostCounts SelfMap::cost_counts() const {
     if (slot == kFreeBlock) return;
     const Block& block = store_.block(slot);
     for (std::uint32_t cell = 0; cell < kCellsPerBlock; ++cell) {
-      for_each_bit(block.occupied[cell], [&](std::uint32_t bit) {
-        ++count_for(counts, store_.cost(block, cell << 6 | bit));
-      });
+      std::array<FusedCost, 64> costs;  // only what the mask names is set
+      const std::uint64_t costed = store_.unpack_costs(block, cell, costs);
+      counts.no_data += static_cast<std::uint64_t>(std::popcount(block.occupied[cell] & ~costed));
+      for_each_bit(block.occupied[cell] & costed,
+                   [&](std::uint32_t bit) { ++count_for(counts, costs[bit]); });
     }
   });
   return counts;

@@ -13,6 +13,13 @@ struct Point3f {
   friend bool operator==(const Point3f&, const Point3f&) = default;
 };
 
+inline float squared_distance(const Point3f& a, const Point3f& b) {
+  const float x = a.x - b.x;
+  const float y = a.y - b.y;
+  const float z = a.z - b.z;
+  return x * x + y * y + z * z;
+}
+
 inline bool is_finite(const Point3f& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }

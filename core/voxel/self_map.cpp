@@ -98,9 +98,7 @@ void reduce_to_end_voxels(const Lattice& lattice, std::span<const Point3f> point
     }
     const auto code = [](std::int32_t axis) { return static_cast<std::uint64_t>(axis - kKeyMin); };
     if (!seen.insert(code(key->x) << 32 | code(key->y) << 16 | code(key->z)).second) continue;
-    centres.push_back({static_cast<float>(lattice.centre_m(key->x)),
-                       static_cast<float>(lattice.centre_m(key->y)),
-                       static_cast<float>(lattice.centre_m(key->z))});
+    centres.push_back(lattice.centre(*key));
   }
 }
 
@@ -179,8 +177,12 @@ std::optional<float> SelfMap::log_odds(const VoxelKey& key) const {
 }
 
 std::optional<FusedCost> SelfMap::fused_cost(const VoxelKey& key) const {
-  if (store_.state(key) != VoxelState::kOccupied) return std::nullopt;
-  return store_.cost(key);
+  const BlockSlot slot = store_.slot_of(block_of(key));
+  if (slot < kFirstBlockSlot) return std::nullopt;
+  const Block& block = store_.block(slot);
+  const std::uint32_t place = morton9(key.x, key.y, key.z);
+  if ((block.occupied[place >> 6] >> (place & 63) & 1) == 0) return std::nullopt;
+  return store_.cost(block, place);
 }
 
 std::optional<float> SelfMap::cost(const VoxelKey& key) const {

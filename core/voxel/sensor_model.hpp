@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace warren {
+
+inline double probability_of(float log_odds) {
+  return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds)));
+}
 
 // Probabilities of the binary Bayes filter (paper Eq. 1-2): of occupancy given a hit and a pass,
 // and the two clamps. Valid: 0 < minimum, miss < 0.5 < hit, maximum < 1.

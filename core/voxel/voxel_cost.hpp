@@ -47,6 +47,8 @@ class CostFusion {
 
   // The first cost of a voxel is taken as it is; a NaN counts as impossible.
   FusedCost first(const VoxelCost& measured) const;
+  // Whether next() looks at the occupancy.
+  bool weighs_occupancy() const { return rule_ == CostRule::kPaper; }
   // `occupancy` is the voxel's probability after this scan.
   FusedCost next(const FusedCost& fused, const VoxelCost& measured, double occupancy) const;
 

@@ -54,9 +54,9 @@ void VoxelCosts::add_column(std::uint64_t key, const Heights& heights, Tally& ta
   if (tally.voxels > before) ++tally.known_columns;
 }
 
-std::optional<double> VoxelCosts::score(const Point3f& place, const Footprint& footprint) const {
-  const double radius_m = footprint.radius_m;
-  const Heights heights{place.z - footprint.below_m, place.z + footprint.above_m};
+std::optional<double> VoxelCosts::score(const Point3f& place, const SweptCylinder& cylinder) const {
+  const double radius_m = cylinder.radius_m;
+  const Heights heights{place.z - cylinder.below_m, place.z + cylinder.above_m};
   Tally tally;
   for (std::int32_t x = index_of(place.x - radius_m); x <= index_of(place.x + radius_m); ++x) {
     for (std::int32_t y = index_of(place.y - radius_m); y <= index_of(place.y + radius_m); ++y) {
@@ -64,7 +64,7 @@ std::optional<double> VoxelCosts::score(const Point3f& place, const Footprint& f
       add_column(column_key(x, y), heights, tally);
     }
   }
-  const double needed = footprint.least_known_share * static_cast<double>(tally.columns);
+  const double needed = cylinder.least_known_share * static_cast<double>(tally.columns);
   if (tally.voxels == 0 || static_cast<double>(tally.known_columns) < needed) return std::nullopt;
   return std::max(tally.sum / static_cast<double>(tally.voxels), tally.most / 2.0);
 }

@@ -13,7 +13,7 @@ namespace warren {
 
 // The space that a vehicle sweeps when it turns on the spot: an upright cylinder about a place on
 // the ground. Its lower end is where ground is no longer the same footprint's.
-struct Footprint {
+struct SweptCylinder {
   double radius_m = 0.55;  // half the diagonal of a Husky's body, and of a Spot's
   double above_m = 0.85;   // a Husky's height
   double below_m = 0.4;
@@ -33,7 +33,7 @@ class VoxelCosts {
   // The planner's rule (paper section 2.5: mean below 10 %, max below 20 %) as one number: the
   // larger of the mean and half the maximum of the voxels in the footprint. Below 0.10 exactly
   // where the rule says "valid". None: no data.
-  std::optional<double> score(const Point3f& place, const Footprint& footprint) const;
+  std::optional<double> score(const Point3f& place, const SweptCylinder& cylinder) const;
 
  private:
   struct Voxel {

@@ -16,15 +16,18 @@ int fail(const std::string& why) {
   return 2;
 }
 
+int print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
 int execute(const IntegrateCommand& command) {
   const auto sequence =
       load_sequence(command.source, command.options.map.resolution_m, command.max_range_m);
   if (!sequence) return fail(sequence.error());
   const auto result = bench_integrate(*sequence, command.options);
-  const std::string text =
-      command.json ? to_json(result, command.options, command.max_range_m) + "\n" : to_text(result);
-  std::fputs(text.c_str(), stdout);
-  return 0;
+  return print(command.json ? to_json(result, command.options, command.max_range_m) + "\n"
+                            : to_text(result));
 }
 
 int execute(const MapQualityCommand& command) {
@@ -34,10 +37,7 @@ int execute(const MapQualityCommand& command) {
   }
   const auto results = bench_map_quality(command.options);
   if (!results) return fail(results.error());
-  const std::string text =
-      command.json ? to_json(*results, command.options) + "\n" : to_text(*results);
-  std::fputs(text.c_str(), stdout);
-  return 0;
+  return print(command.json ? to_json(*results, command.options) + "\n" : to_text(*results));
 }
 
 int execute(const TerrainCommand& command) {
@@ -45,9 +45,7 @@ int execute(const TerrainCommand& command) {
   if (!sequence) return fail(sequence.error());
   sequence->leave_out_beyond_max_range();
   const auto result = bench_terrain(*sequence);
-  const std::string text = command.json ? to_json(result) + "\n" : to_text(result);
-  std::fputs(text.c_str(), stdout);
-  return 0;
+  return print(command.json ? to_json(result) + "\n" : to_text(result));
 }
 
 int execute(const PipelineCommand& command) {
@@ -55,19 +53,14 @@ int execute(const PipelineCommand& command) {
       load_sequence(command.source, command.options.map.resolution_m, command.max_range_m);
   if (!sequence) return fail(sequence.error());
   const auto result = bench_pipeline(*sequence, command.options);
-  const std::string text =
-      command.json ? to_json(result, command.options, command.max_range_m) + "\n" : to_text(result);
-  std::fputs(text.c_str(), stdout);
-  return 0;
+  return print(command.json ? to_json(result, command.options, command.max_range_m) + "\n"
+                            : to_text(result));
 }
 
 int execute(const TerrainQualityCommand& command) {
   const auto results = bench_terrain_quality(command.options);
   if (!results) return fail(results.error());
-  const std::string text =
-      command.json ? to_json(*results, command.options) + "\n" : to_text(*results);
-  std::fputs(text.c_str(), stdout);
-  return 0;
+  return print(command.json ? to_json(*results, command.options) + "\n" : to_text(*results));
 }
 
 int execute(const ExitCommand& command) { return command.code; }

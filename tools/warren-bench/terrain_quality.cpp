@@ -43,7 +43,7 @@ std::vector<TerrainQuality> judge_profile(const LabelledRun& run, const NamedPro
     costs.assign(judge.judge({scan.points_world, scan.origin_world}));
     for (const PlaceInView& seen : scan.in_view) {
       const GroundPlace& place = run.places[seen.place];
-      const auto score = costs.score(place.position_world, options.footprint);
+      const auto score = costs.score(place.position_world, options.cylinder);
       for (std::size_t v = 0; v < place.by_vehicle.size(); ++v) {
         count(results[v * kRangeBins.size() + bin_of(seen.range_m)], place.by_vehicle[v], score);
       }

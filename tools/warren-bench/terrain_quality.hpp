@@ -44,7 +44,7 @@ struct TerrainQualityOptions {
   std::vector<NamedProfile> profiles = {{"paper", TerrainConfig::paper()},
                                         {"robust", TerrainConfig::robust()}};
   LabelledRunOptions run;
-  Footprint footprint;
+  SweptCylinder cylinder;
 };
 
 // Do costs tell where vehicles can drive? One robot explores each world; every place of ground that

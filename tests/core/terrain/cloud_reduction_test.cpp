@@ -80,3 +80,15 @@ TEST_CASE("tiles hold all points, each in its own tile's range, in order") {
   CHECK(next == cloud.size());
   CHECK(std::accumulate(cloud.weights.begin(), cloud.weights.end(), 0U) == 41 * 41);
 }
+
+TEST_CASE("points outside of the sphere are left out and counted") {
+  CloudReducer reducer(0.05F);
+  const std::vector<Point3f> points = {
+      {1.0F, 0.0F, 0.0F}, {3.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 2.001F}, {1e30F, 0.0F, 0.0F}};
+  const ReducedCloud& reduced = reducer.reduce(points, {{1.0F, 0.0F, 0.0F}, 2.0F});
+  CHECK(reduced.size() == 2);  // the border belongs to it
+  CHECK(reducer.report().too_far == 1);
+  CHECK(reducer.report().outside == 1);
+  CHECK(reducer.reduce(points).size() == 3);
+  CHECK(reducer.report().too_far == 0);
+}

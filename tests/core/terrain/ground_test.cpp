@@ -27,6 +27,7 @@ class DrawnMap : public TerrainView {
 
   const Lattice& lattice() const override { return lattice_; }
   VoxelState state(const VoxelKey& key) const override {
+    REQUIRE(KeyBox{}.contains(key));
     return voxels_.contains(key) ? VoxelState::kOccupied : VoxelState::kUnknown;
   }
   std::optional<float> cost(const VoxelKey& key) const override {
@@ -164,10 +165,20 @@ TEST_CASE("columns run along gravity, not along the robot's own axis") {
   CHECK(*ground(map, query).max_cost == doctest::Approx(1.0));
 }
 
+TEST_CASE("below the key space there is no ground") {
+  DrawnMap map;
+  map.put_floor(kKeyMax, 0.0F);  // not where the keys begin again
+  GroundQuery query = query_at(0.0, 0.0, kKeyMin * 0.1 + 0.25);
+  query.below_m = 20.0;
+  const GroundReport report = ground(map, query);
+  CHECK(report.columns == 16 * 12);
+  CHECK(report.columns_with_ground == 0);
+}
+
 TEST_CASE("whatever the numbers, a valid query ends and its shares add up") {
   DrawnMap map;
   map.put_floor(-1, 0.05F);
-  rc::check("any pose", [&] {
+  CHECK(rc::check("any pose", [&] {
     const auto metres = [](int most_mm) { return 1e-3 * *rc::gen::inRange(-most_mm, most_mm + 1); };
     GroundQuery query = query_at(metres(3000), metres(3000), metres(1500), metres(3141));
     query.T_layer_base.rotate(Eigen::AngleAxisd(metres(1500), Eigen::Vector3d::UnitX()));
@@ -181,7 +192,7 @@ TEST_CASE("whatever the numbers, a valid query ends and its shares add up") {
     RC_ASSERT(report.columns_with_ground <= report.columns);
     RC_ASSERT(report.mean_cost.has_value() == (report.columns_with_cost > 0));
     if (report.mean_cost) RC_ASSERT(std::abs(*report.mean_cost - 0.05) < 1e-6);
-  });
+  }));
 }
 
 TEST_CASE("queries that make no sense are not valid") {

@@ -114,7 +114,7 @@ TEST_CASE("a copy's costs are its own") {
 }
 
 TEST_CASE("costs are kept as a plain table would keep them") {
-  rc::check("as a table", [] {
+  CHECK(rc::check("as a table", [] {
     SelfMap map({});
     std::map<VoxelKey, FusedCost> table;
     const CostFusion fusion{CostFusionConfig{}};
@@ -145,5 +145,5 @@ TEST_CASE("costs are kept as a plain table would keep them") {
       RC_ASSERT(table.at(key) == *cost);
     });
     RC_ASSERT(costed == table.size());
-  });
+  }));
 }

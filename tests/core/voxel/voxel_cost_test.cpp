@@ -75,7 +75,7 @@ TEST_CASE("a change is followed from both sides, sooner than by the paper's rule
 }
 
 TEST_CASE("the paper's rule is Eq. 4 as printed") {
-  rc::check("Eq. 4", [] {
+  CHECK(rc::check("Eq. 4", [] {
     const auto unit = [] { return static_cast<float>(*rc::gen::inRange(0, 1001)) / 1000.0F; };
     const float old_cost = unit();
     const float new_cost = unit();
@@ -85,11 +85,11 @@ TEST_CASE("the paper's rule is Eq. 4 as printed") {
     const double printed = old_cost * occupancy + new_cost * (1.0 - occupancy);
     RC_ASSERT(std::abs(static_cast<double>(fused.value()) - printed) <=
               2.0 * static_cast<double>(kStep));
-  });
+  }));
 }
 
 TEST_CASE("a fused cost goes towards what is measured and never past it") {
-  rc::check("between", [] {
+  CHECK(rc::check("between", [] {
     const auto measured = [] {
       return VoxelCost{{},
                        static_cast<float>(*rc::gen::inRange(0, 65536)) / 65535.0F,
@@ -105,7 +105,7 @@ TEST_CASE("a fused cost goes towards what is measured and never past it") {
       RC_ASSERT(fused.cost <= std::max(before.cost, target.cost));
       RC_ASSERT((fused.cost == before.cost) == (before.cost == target.cost));
     }
-  });
+  }));
 }
 
 TEST_CASE("what is seen from close by outweighs what was seen from afar") {

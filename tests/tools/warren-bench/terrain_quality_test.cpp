@@ -73,6 +73,8 @@ TEST_CASE("a simulated run has hazards, safe ground and the same numbers every t
   CHECK(safe > 100);
   CHECK(hazards > 100);
   const auto again = bench_terrain_quality(options);
+  REQUIRE(again);
+  REQUIRE(again->size() == results->size());
   for (std::size_t i = 0; i < results->size(); ++i) {
     CHECK((*results)[i].agreement.roc_auc() == (*again)[i].agreement.roc_auc());
     CHECK((*results)[i].agreement.false_safe(0.10) == (*again)[i].agreement.false_safe(0.10));
