@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/layer/publisher.hpp"
 
-#include <utility>
-
 #include "core/voxel/bits.hpp"
 
 namespace warren {
@@ -28,15 +26,11 @@ CodeBlock codes_of(const SelfMap& map, const BlockKey& key) {
   return CodeBlock(codes);
 }
 
-std::vector<PublishedBlock> changed_codes(const SelfMap& map, std::uint32_t cursor,
-                                          const Replica& published) {
-  std::vector<PublishedBlock> changed;
-  for (const BlockKey& key : map.blocks_changed_since(cursor)) {
-    PublishedBlock now{ordinal_of(key), codes_of(map, key)};
-    const LayerBlock* const before = published.find(now.block);
-    if (before != nullptr ? before->codes == now.codes : now.codes.empty()) continue;
-    changed.push_back(std::move(now));
-  }
+std::vector<CodedBlock> blocks_changed_since(const SelfMap& map, std::uint32_t cursor) {
+  const std::vector<BlockKey> keys = map.blocks_changed_since(cursor);
+  std::vector<CodedBlock> changed;
+  changed.reserve(keys.size());
+  for (const BlockKey& key : keys) changed.push_back({ordinal_of(key), codes_of(map, key)});
   return changed;
 }
 

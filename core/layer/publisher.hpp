@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/layer/replica.hpp"
+#include "core/layer/coded_block.hpp"
 #include "core/voxel/self_map.hpp"
 
 namespace warren {
@@ -12,9 +12,8 @@ namespace warren {
 // The codes of one block of a self-map.
 CodeBlock codes_of(const SelfMap& map, const BlockKey& key);
 
-// What a tick has to publish: the blocks that changed in the map after the scan numbered `cursor`
-// and whose codes differ from the published ones, for Replica::publish().
-std::vector<PublishedBlock> changed_codes(const SelfMap& map, std::uint32_t cursor,
-                                          const Replica& published);
+// What the owner of a self-map hands over at a tick: the blocks that changed after the scan
+// numbered `cursor`, in no particular order, no block twice.
+std::vector<CodedBlock> blocks_changed_since(const SelfMap& map, std::uint32_t cursor);
 
 }  // namespace warren

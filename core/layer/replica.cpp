@@ -110,13 +110,13 @@ Replica::Replica(const LayerId& id, const Holdings& holdings, std::span<const St
   }
 }
 
-Revision Replica::publish(std::span<const PublishedBlock> blocks) {
+Revision Replica::publish(std::span<const CodedBlock> blocks) {
   assert(holdings_.intervals().size() == 1);
   const Revision now = holdings_.at(0);
   assert(now.number < std::numeric_limits<std::uint32_t>::max());
   const Revision next{now.number + 1};
   bool changed = false;
-  for (const PublishedBlock& published : blocks) {
+  for (const CodedBlock& published : blocks) {
     const LayerBlock* const held = blocks_.find(published.block);
     const CodeBlock before = held != nullptr ? held->codes : CodeBlock{};
     if (before == published.codes) continue;

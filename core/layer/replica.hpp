@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/layer/coded_block.hpp"
 #include "core/layer/diff_packet.hpp"
 #include "core/layer/digest.hpp"
 #include "core/layer/holdings.hpp"
@@ -25,12 +26,6 @@ enum class ApplyResult : std::uint8_t {
   kOtherLayer,
 };
 inline constexpr std::size_t kApplyResults = 7;
-
-// The codes of one block as they are now; empty if nothing is known of it any more.
-struct PublishedBlock {
-  BlockOrdinal block = 0;
-  CodeBlock codes;
-};
 
 // A block as a store keeps it.
 struct StoredBlock {
@@ -75,7 +70,7 @@ class Replica {
   // Makes the next revision, in which these blocks have these codes, and returns it. The revision
   // stays if no code differs. Preconditions: the whole layer is held at one revision, and no block
   // comes twice.
-  Revision publish(std::span<const PublishedBlock> blocks);
+  Revision publish(std::span<const CodedBlock> blocks);
 
   // The first packet of what receivers lack who hold `from`: its claim begins at the first key of
   // the request where more than `from` is held, and the next request at the claim's end. Nothing

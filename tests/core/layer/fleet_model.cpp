@@ -62,7 +62,7 @@ bool FleetModel::step() {
 
 void FleetModel::publish() {
   Row row = history_.back();
-  std::vector<PublishedBlock> changes;
+  std::vector<CodedBlock> changes;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     if (chance(random_, 60)) continue;
     BlockCodes codes = row[i].unpack();

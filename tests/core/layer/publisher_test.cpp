@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/layer/replica.hpp"
 #include "tests/support/simulated_scans.hpp"
 
 using namespace warren;
@@ -59,11 +60,11 @@ TEST_CASE("after each tick the layer is what the self-map's voxels encode to") {
   for (const auto& scan : test::walk_through_room(test::Room{}, test::Lidar{}, 8)) {
     map.integrate(scan.view());
     add_costs(map, scan);
-    layer.publish(changed_codes(map, cursor, layer));
+    layer.publish(blocks_changed_since(map, cursor));
     cursor = map.cursor();
     CHECK(layer.holdings().at(0) == Revision{++ticks});
     check_published(map, layer);
   }
-  CHECK(changed_codes(map, cursor, layer).empty());
-  CHECK(changed_codes(map, 0, layer).empty());
+  CHECK(blocks_changed_since(map, cursor).empty());
+  CHECK(layer.publish(blocks_changed_since(map, 0)) == Revision{ticks});
 }

@@ -15,13 +15,13 @@ namespace {
 
 constexpr LayerId kLayer{7, 1, 0x1234};
 
-PublishedBlock block_with(BlockOrdinal block, std::uint32_t place, VoxelCode code) {
+CodedBlock block_with(BlockOrdinal block, std::uint32_t place, VoxelCode code) {
   BlockCodes codes;
   codes.set(place, code);
   return {block, CodeBlock(codes)};
 }
 
-void publish(Replica& origin, const std::vector<PublishedBlock>& blocks) {
+void publish(Replica& origin, const std::vector<CodedBlock>& blocks) {
   const Revision before = origin.holdings().at(0);
   REQUIRE(origin.publish(blocks).number == before.number + 1);
 }
@@ -57,7 +57,7 @@ bool same(const Replica& a, const Replica& b, BlockOrdinal block) {
 // A layer with so many blocks of noise.
 Replica noisy_layer(std::size_t blocks) {
   test::Random random(1);
-  std::vector<PublishedBlock> changes;
+  std::vector<CodedBlock> changes;
   for (std::size_t i = 0; i < blocks; ++i) {
     changes.push_back({random() % kOrdinalEnd, CodeBlock(test::random_codes(random))});
   }
@@ -74,7 +74,7 @@ TEST_CASE("a tick without changes is no revision") {
   const auto block = block_with(5, 3, VoxelCode::free());
   CHECK(origin.publish({{block}}) == Revision{1});
   CHECK(origin.publish({{block}}) == Revision{1});
-  CHECK(origin.publish({{PublishedBlock{6, {}}}}) == Revision{1});
+  CHECK(origin.publish({{CodedBlock{6, {}}}}) == Revision{1});
   CHECK_FALSE(origin.encode({{}, {1}}));
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("regions are found by their latest change") {
 
 TEST_CASE("many regions are told in key order, few changed ones without looking at the rest") {
   Replica origin(kLayer);
-  std::vector<PublishedBlock> everywhere;
+  std::vector<CodedBlock> everywhere;
   for (BlockOrdinal region = 0; region < 700; ++region) {
     everywhere.push_back(block_with(region << 9 | 7, 1, VoxelCode::free()));
   }
@@ -268,7 +268,7 @@ TEST_CASE("forgotten blocks are empty, not held, and can be had again") {
 }
 
 TEST_CASE("a copy takes at most 2.5 bytes per known voxel") {
-  std::vector<PublishedBlock> changes;
+  std::vector<CodedBlock> changes;
   std::uint64_t known = 0;
   for (std::int32_t x = 0; x < 100; ++x) {
     for (std::int32_t y = 0; y < 5; ++y) {
