@@ -43,7 +43,13 @@ inline constexpr std::size_t kCount = kKeyStep + kNumberBits;
 
 }  // namespace diff_context
 
-// What every packet's probabilities start from: kCount of them. Belongs to the format version.
+// The table of priors holds one byte per context: the middle of a 256th of all probabilities.
+constexpr Probability prior_of(std::uint8_t table_byte) {
+  return static_cast<Probability>(table_byte << 8 | 0x80);
+}
+
+// What every packet's probabilities start from: kCount of them, trained by warren-train-priors.
+// Belongs to the format version.
 using DiffPriors = std::vector<Probability>;
 const DiffPriors& diff_priors();
 
