@@ -7,6 +7,7 @@
 
 #include "daemon/config/load.hpp"
 #include "daemon/config/print.hpp"
+#include "daemon/fleet/node_id.hpp"
 #include "daemon/ingest/header.hpp"
 #include "daemon/log.hpp"
 
@@ -17,6 +18,15 @@ SensorFilters filters_of(const Config& config) {
   SensorFilters filters;
   for (const SensorConfig& sensor : config.sensors) filters[sensor.name] = sensor.filter();
   return filters;
+}
+
+FleetMapConfig fleet_config(const Config& config) {
+  return {node_id(config.node.name), config.map.resolution_m, config.layer.resolved()};
+}
+
+std::chrono::nanoseconds tick_of(const Config& config) {
+  const std::chrono::duration<double> tick{config.layer.tick_s};
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(tick);
 }
 
 }  // namespace
@@ -33,6 +43,7 @@ tl::expected<std::unique_ptr<Warrend>, std::string> Warrend::start(
                                                std::move(*control), std::move(dependencies)));
   warrend->ingest_.start();
   warrend->control_.start();
+  warrend->fleet_.start();
   const auto& watchdog_time = warrend->dependencies_.watchdog_time;
   if (watchdog_time) warrend->watchdog_.start(*watchdog_time);
   warrend->dependencies_.notify("READY=1\nSTATUS=Mapping");
@@ -49,6 +60,7 @@ Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::pa
       dependencies_(std::move(dependencies)),
       ingest_socket_(std::move(ingest_socket)),
       control_socket_(std::move(control_socket)),
+      fleet_(io, mapper_, fleet_config(config), tick_of(config)),
       mapper_({config.self_map(), config.terrain.resolved()}, filters_of(config),
               config.ingest.queue_scans, mapper_dependencies()),
       ingest_(io, ingest_socket_.release_descriptor(), config, mapper_),
@@ -69,7 +81,7 @@ Mapper::Dependencies Warrend::mapper_dependencies() {
 }
 
 ControlService::Dependencies Warrend::service_dependencies() {
-  return {io_, mapper_, ingest_, config_, dependencies_.save_map, WARREN_VERSION};
+  return {io_, mapper_, fleet_, ingest_, config_, dependencies_.save_map, WARREN_VERSION};
 }
 
 void Warrend::request_stop() {
@@ -89,11 +101,18 @@ void Warrend::stop() {
 }
 
 void Warrend::on_drained() {
-  mapper_.finish([this] { asio::post(io_, [this] { on_mapper_finished(); }); });
+  mapper_.finish([this](std::vector<LayerChanges> last) {
+    asio::post(io_,
+               [this, last = std::move(last)]() mutable { on_mapper_finished(std::move(last)); });
+  });
+}
+
+void Warrend::on_mapper_finished(std::vector<LayerChanges> last) {
+  fleet_.finish(std::move(last), [this] { asio::post(io_, [this] { on_fleet_finished(); }); });
 }
 
 // All receipts have been posted before.
-void Warrend::on_mapper_finished() {
+void Warrend::on_fleet_finished() {
   ingest_.finish();
   watchdog_.stop();
   running_.reset();

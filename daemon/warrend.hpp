@@ -14,6 +14,7 @@
 #include "daemon/config/config.hpp"
 #include "daemon/control/server.hpp"
 #include "daemon/control/service.hpp"
+#include "daemon/fleet/fleet.hpp"
 #include "daemon/ingest/server.hpp"
 #include "daemon/mapper/mapper.hpp"
 #include "daemon/socket_file.hpp"
@@ -54,7 +55,8 @@ class Warrend {
   ControlService::Dependencies service_dependencies();
   void stop();
   void on_drained();
-  void on_mapper_finished();
+  void on_mapper_finished(std::vector<LayerChanges> last);
+  void on_fleet_finished();
   void reload();
   void apply(const Config& wanted);
 
@@ -66,6 +68,7 @@ class Warrend {
   SocketFile ingest_socket_;
   SocketFile control_socket_;
   bool stopping_ = false;
+  Fleet fleet_;  // outlives the mapping thread, which hands over to it
   Mapper mapper_;
   IngestServer ingest_;
   ControlService service_;

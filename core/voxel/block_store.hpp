@@ -56,6 +56,12 @@ struct Region {
   VoxelKey key{};  // voxel key / 64
   std::array<BlockSlot, kBlocksPerRegion> slots{};
   std::array<std::uint32_t, kBlocksPerRegion> changed_at{};  // number of a scan; 0 never
+  std::uint32_t last_change = 0;                             // the highest of them
+
+  void mark_changed(std::uint32_t slot, std::uint32_t scan) {
+    changed_at[slot] = scan;
+    last_change = scan;
+  }
 };
 
 constexpr VoxelKey region_of(const VoxelKey& key) { return {key.x >> 6, key.y >> 6, key.z >> 6}; }

@@ -73,7 +73,7 @@ CommitCounts commit_marks(const ScanMarker& marker, const FixedSensorModel& mode
     store.forget_costs_at_clamp(block);
     store.collapse_if_free(slot);
     if (!changed) continue;
-    region.changed_at[marked.slot] = scan;
+    region.mark_changed(marked.slot, scan);
     ++counts.blocks_changed;
   }
   return counts;

@@ -102,7 +102,8 @@ class SelfMap {
   void for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit) const;
 
   // Blocks whose log-odds or costs changed after the scan numbered `cursor`; 0 gives all. Scans are
-  // numbered from 1; cursor() is the number of the last.
+  // numbered from 1; cursor() is the number of the last. In no particular order; what did not
+  // change costs nothing but a look at each region.
   std::vector<BlockKey> blocks_changed_since(std::uint32_t cursor) const;
   std::uint32_t cursor() const { return scans_; }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/config/config.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace warren {
 
 SensorModel SensorModelConfig::resolved() const {
@@ -31,6 +34,13 @@ TerrainConfig TerrainSettings::resolved() const {
                                 static_cast<float>(step_critical_m)};
   }
   return config;
+}
+
+PublishingConfig LayerSettings::resolved() const {
+  const double ticks = std::ceil(flush_after_s / tick_s);
+  return {{hold_ragged_free, hold_small_cost_changes},
+          packet_bytes,
+          static_cast<std::uint32_t>(std::max(ticks, 1.0))};
 }
 
 SelfMapConfig Config::self_map() const {

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "core/layer/publishing_config.hpp"
 #include "core/terrain/terrain_judge.hpp"
 #include "core/voxel/scan.hpp"
 #include "core/voxel/self_map.hpp"
@@ -64,6 +65,18 @@ struct MapConfig {
   friend bool operator==(const MapConfig&, const MapConfig&) = default;
 };
 
+// How the own layer is published.
+struct LayerSettings {
+  double tick_s = 1.0;
+  bool hold_ragged_free = true;
+  bool hold_small_cost_changes = true;
+  double flush_after_s = 30.0;
+  std::uint32_t packet_bytes = 1200;
+
+  PublishingConfig resolved() const;
+  friend bool operator==(const LayerSettings&, const LayerSettings&) = default;
+};
+
 struct IngestConfig {
   std::uint32_t queue_scans = 8;
   std::uint32_t max_points = 262144;
@@ -108,6 +121,7 @@ struct Config {
   Sockets sockets;
   MapConfig map;
   TerrainSettings terrain;
+  LayerSettings layer;
   IngestConfig ingest;
   std::vector<SensorConfig> sensors{SensorConfig{}};
   LogConfig log;

@@ -52,6 +52,14 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   return question;
 }
 
+tl::expected<ControlRequest, std::string> layer_diff_question(
+    const control::LayerDiffRequest& request) {
+  if (request.first_key() >= kOrdinalEnd) {
+    return tl::unexpected(std::string("layer_diff.first_key is past the last key"));
+  }
+  return LayerDiffQuestion{{request.first_key(), kOrdinalEnd}, Revision{request.from()}};
+}
+
 }  // namespace
 
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes) {
@@ -69,6 +77,8 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return ConfigQuestion{};
     case control::Request::kMapSave:
       return save_order(request.map_save());
+    case control::Request::kLayerDiff:
+      return layer_diff_question(request.layer_diff());
     case control::Request::kGround:
       return ground_question(request.ground());
     default:

@@ -11,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include "core/exchange/map_picture.hpp"
+#include "core/layer/claim.hpp"
 #include "core/terrain/ground.hpp"
 #include "core/voxel/scan.hpp"
 
@@ -34,8 +35,13 @@ struct GroundQuestion {
   std::optional<Eigen::Vector3d> gravity_map;  // any length; none: that of the scan taken last
   bool stair_capable = false;
 };
-using ControlRequest =
-    std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion>;
+// What does a copy of the own layer lack, that holds `from` in these keys?
+struct LayerDiffQuestion {
+  KeyInterval keys;
+  Revision from;
+};
+using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder,
+                                    GroundQuestion, LayerDiffQuestion>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

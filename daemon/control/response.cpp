@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/control/response.hpp"
 
+#include "core/layer/hash_text.hpp"
 #include "proto/framing.hpp"
 #include "warren/control.pb.h"
 
@@ -75,6 +76,27 @@ void fill(const MapperStatus& mapper, control::Status& status) {
   status.set_integrate_cpu_ms_max(mapper.integrate_cpu_ms_max);
 }
 
+void fill(const LayerId& id, control::LayerId& message) {
+  message.set_origin(id.origin);
+  message.set_number(id.number);
+  message.set_incarnation(id.incarnation);
+}
+
+void fill(const PublishingReport& report, control::Publishing& publishing) {
+  publishing.set_layers(report.layers);
+  publishing.set_ticks(report.ticks);
+  publishing.set_ticks_late(report.ticks_late);
+  publishing.set_packets(report.traffic.packets);
+  publishing.set_bytes(report.traffic.bytes);
+  publishing.set_bytes_of_last_tick(report.traffic.bytes_of_last_tick);
+  publishing.set_blocks_held_back(report.blocks_held_back);
+  publishing.set_memory_bytes(report.memory_bytes);
+  if (!report.current) return;
+  fill(report.current->id, *publishing.mutable_layer());
+  publishing.set_revision(report.current->revision.number);
+  publishing.set_digest(hex_of(report.current->digest));
+}
+
 }  // namespace
 
 std::string encode_status(const StatusReport& report) {
@@ -87,6 +109,7 @@ std::string encode_status(const StatusReport& report) {
   status.set_queue_capacity(static_cast<std::uint32_t>(report.queue.capacity));
   fill(report.ingest, status);
   fill(report.mapper, status);
+  fill(report.publishing, *status.mutable_publishing());
   return framed(response.SerializeAsString());
 }
 
@@ -121,6 +144,17 @@ std::string encode_ground(const GroundAnswer& answer) {
   ground.set_step_m(report.step_m);
   ground.set_validity(name_of(answer.validity));
   ground.set_valid(is_valid(answer.validity));
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_layer_diff(const LayerDiff& diff) {
+  control::Response response;
+  auto& message = *response.mutable_layer_diff();
+  fill(diff.id, *message.mutable_layer());
+  message.set_resolution_m(diff.resolution_m);
+  message.set_revision(diff.revision.number);
+  for (const auto& packet : diff.packets) message.add_packets(packet.data(), packet.size());
+  if (diff.next_key != kOrdinalEnd) message.set_next_key(diff.next_key);
   return framed(response.SerializeAsString());
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/exchange/map_writer.hpp"
+#include "daemon/fleet/fleet_map.hpp"
 #include "daemon/ingest/server_status.hpp"
 #include "daemon/mapper/mapper.hpp"
 
@@ -19,12 +20,14 @@ struct StatusReport {
   IngestStatus ingest;
   Mapper::QueueLoad queue;
   MapperStatus mapper;
+  PublishingReport publishing;
 };
 
 // Responses as they go over the wire, length included.
 std::string encode_status(const StatusReport& report);
 std::string encode_map_info(const MapInfoReport& info);
 std::string encode_map_saved(const std::string& path, const SaveReport& report);
+std::string encode_layer_diff(const LayerDiff& diff);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);

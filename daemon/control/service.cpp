@@ -12,7 +12,7 @@
 namespace warren {
 namespace {
 
-constexpr const char* kTooBusy = "too many questions wait for the mapping thread; try again";
+constexpr const char* kTooBusy = "too many questions wait; try again";
 
 std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
                          const MapSnapshot& snapshot) {
@@ -37,7 +37,17 @@ void ControlService::handle(const ControlRequest& request, const Respond& respon
 void ControlService::answer(const StatusQuestion&, const Respond& respond) {
   const bool asked = parts_.mapper.ask_status(
       [this, respond, guard = asio::make_work_guard(parts_.io)](const MapperStatus& mapper) {
-        asio::post(parts_.io, [this, respond, mapper] { respond(encode_status(status(mapper))); });
+        asio::post(parts_.io, [this, respond, mapper] { answer_status(mapper, respond); });
+      });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
+void ControlService::answer_status(const MapperStatus& mapper, const Respond& respond) {
+  const bool asked = parts_.fleet.ask(
+      [this, respond, mapper, guard = asio::make_work_guard(parts_.io)](const FleetMap& fleet) {
+        asio::post(parts_.io, [this, respond, mapper, publishing = fleet.report()] {
+          respond(encode_status(status(mapper, publishing)));
+        });
       });
   if (!asked) respond(encode_error(kTooBusy));
 }
@@ -60,6 +70,18 @@ void ControlService::answer(const GroundQuestion& question, const Respond& respo
         asio::post(parts_.io,
                    [respond, frame = result ? encode_ground(*result)
                                             : encode_error(result.error())] { respond(frame); });
+      });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
+void ControlService::answer(const LayerDiffQuestion& question, const Respond& respond) {
+  const bool asked = parts_.fleet.ask(
+      [this, question, respond, guard = asio::make_work_guard(parts_.io)](const FleetMap& fleet) {
+        const auto diff = fleet.diff(question.keys, question.from);
+        asio::post(parts_.io,
+                   [respond, frame = diff ? encode_layer_diff(*diff) : encode_error(kNoMapYet)] {
+                     respond(frame);
+                   });
       });
   if (!asked) respond(encode_error(kTooBusy));
 }
@@ -89,7 +111,7 @@ void ControlService::save(const SaveOrder& order,
   asio::post(parts_.io, [respond, frame = std::move(frame)] { respond(frame); });
 }
 
-StatusReport ControlService::status(MapperStatus mapper) const {
+StatusReport ControlService::status(MapperStatus mapper, PublishingReport publishing) const {
   StatusReport report;
   report.node = parts_.config.node.name;
   report.version = parts_.version;
@@ -98,6 +120,8 @@ StatusReport ControlService::status(MapperStatus mapper) const {
   report.ingest = parts_.ingest.status();
   report.queue = parts_.mapper.queue_load();
   report.mapper = std::move(mapper);
+  report.publishing = std::move(publishing);
+  report.publishing.ticks_late = parts_.fleet.ticks_late();
   return report;
 }
 

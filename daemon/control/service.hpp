@@ -11,6 +11,7 @@
 #include "core/exchange/map_writer.hpp"
 #include "daemon/control/response.hpp"
 #include "daemon/control/session.hpp"
+#include "daemon/fleet/fleet.hpp"
 #include "daemon/ingest/server.hpp"
 #include "daemon/mapper/mapper.hpp"
 
@@ -28,6 +29,7 @@ class ControlService {
   struct Dependencies {
     asio::io_context& io;
     Mapper& mapper;
+    Fleet& fleet;
     const IngestServer& ingest;
     const Config& config;  // as it is in force
     MapSaver save_map;
@@ -49,9 +51,11 @@ class ControlService {
   void answer(const ConfigQuestion& question, const Respond& respond);
   void answer(const SaveOrder& order, const Respond& respond);
   void answer(const GroundQuestion& question, const Respond& respond);
+  void answer(const LayerDiffQuestion& question, const Respond& respond);
   void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,
             const Respond& respond);
-  StatusReport status(MapperStatus mapper) const;
+  void answer_status(const MapperStatus& mapper, const Respond& respond);
+  StatusReport status(MapperStatus mapper, PublishingReport publishing) const;
 
   Dependencies parts_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();

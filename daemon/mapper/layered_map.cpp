@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/layer/publisher.hpp"
+
 namespace warren {
 namespace {
 
@@ -143,6 +145,20 @@ tl::expected<GroundAnswer, std::string> LayeredMap::ground(const GroundQuestion&
   answer.ground = warren::ground(SelfMapView(layer->voxels), query);
   answer.validity = validity(answer.ground, question.stair_capable);
   return answer;
+}
+
+std::vector<LayerChanges> LayeredMap::take_changes() {
+  std::vector<LayerChanges> changes;
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    Layer& layer = *layers_[i];
+    const std::uint32_t now = layer.voxels.cursor();
+    const bool is_current = i + 1 == layers_.size();
+    if (layer.handed_over == now && !is_current) continue;
+    changes.push_back({static_cast<std::uint32_t>(i), layer.origin, layer.T_fleet_map,
+                       blocks_changed_since(layer.voxels, layer.handed_over)});
+    layer.handed_over = now;
+  }
+  return changes;
 }
 
 std::shared_ptr<const MapSnapshot> LayeredMap::snapshot() const {

@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "core/exchange/map_snapshot.hpp"
+#include "core/layer/coded_block.hpp"
 #include "core/terrain/ground.hpp"
 #include "core/terrain/scan_pipeline.hpp"
 #include "core/voxel/self_map.hpp"
@@ -33,6 +34,15 @@ struct Layer {
   std::uint64_t scans = 0;
   Pose T_fleet_map;
   Eigen::Vector3d gravity_map{0.0, 0.0, -1.0};  // of the scan taken last
+  std::uint32_t handed_over = 0;                // the self-map's cursor at the last hand-over
+};
+
+// What changed in one layer since it was last handed over, exactly.
+struct LayerChanges {
+  std::uint32_t number = 0;  // of the layer among those of this run, from 0
+  LayerOrigin origin;
+  Pose T_fleet_map;
+  std::vector<CodedBlock> blocks;
 };
 
 // The current layer and where it lies, in numbers.
@@ -85,6 +95,9 @@ class LayeredMap {
   MapInfoReport info() const;
   // In the current layer; or why there is no answer, in words for the client.
   tl::expected<GroundAnswer, std::string> ground(const GroundQuestion& question) const;
+  // What changed since the last call: of layers that changed, and of the current one even if
+  // nothing did. In the order in which they were opened.
+  std::vector<LayerChanges> take_changes();
   // A copy of the current layer; nothing before the first scan.
   std::shared_ptr<const MapSnapshot> snapshot() const;
 

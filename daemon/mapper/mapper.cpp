@@ -25,7 +25,7 @@ Mapper::Mapper(const MappingConfig& config, SensorFilters filters, std::size_t q
       thread_([this] { run(); }) {}
 
 Mapper::~Mapper() {
-  finish([] {});
+  finish([](const auto&) {});
   thread_.join();
 }
 
@@ -57,6 +57,10 @@ bool Mapper::ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)
 bool Mapper::ask_ground(const GroundQuestion& question,
                         std::function<void(const GroundResult&)> answer) {
   return ask([this, question, answer = std::move(answer)] { answer(map_.ground(question)); });
+}
+
+bool Mapper::ask_changes(std::function<void(std::vector<LayerChanges>)> answer) {
+  return ask([this, answer = std::move(answer)] { answer(map_.take_changes()); });
 }
 
 bool Mapper::ask(std::function<void()> question) {
@@ -95,11 +99,11 @@ void Mapper::request_beat() {
   });
 }
 
-void Mapper::finish(std::function<void()> done) {
+void Mapper::finish(Finished finished) {
   const std::lock_guard lock(mutex_);
   if (finishing_) return;
   finishing_ = true;
-  finished_ = std::move(done);
+  finished_ = std::move(finished);
   work_.notify_one();
 }
 
@@ -140,7 +144,7 @@ void Mapper::run() {
     lock.lock();
   }
   lock.unlock();
-  finished_();
+  finished_(map_.take_changes());
 }
 
 void Mapper::integrate(QueuedScan& scan) {

@@ -64,6 +64,8 @@ class Mapper {
   using GroundResult = tl::expected<GroundAnswer, std::string>;
   [[nodiscard]] bool ask_ground(const GroundQuestion& question,
                                 std::function<void(const GroundResult&)> answer);
+  // A tick: what changed since the last one is handed over.
+  [[nodiscard]] bool ask_changes(std::function<void(std::vector<LayerChanges>)> answer);
   void set_filters(SensorFilters filters);
   void set_queue_capacity(std::size_t scans);
 
@@ -77,8 +79,9 @@ class Mapper {
   void request_beat();
   std::uint64_t beats() const { return beats_.load(); }
 
-  // Integrates and answers everything in hand, calls `done`, ends the thread.
-  void finish(std::function<void()> done);
+  // Integrates and answers everything in hand, hands over the last changes, ends the thread.
+  using Finished = std::function<void(std::vector<LayerChanges>)>;
+  void finish(Finished finished);
 
  private:
   struct PoseOrder {
@@ -106,7 +109,7 @@ class Mapper {
   ScanQueue queue_;
   std::deque<std::function<void()>> questions_;  // always due
   std::deque<PoseOrder> pose_orders_;
-  std::function<void()> finished_;
+  Finished finished_;
   bool finishing_ = false;
 
   std::atomic<bool> beat_requested_{false};

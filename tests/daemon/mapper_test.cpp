@@ -60,7 +60,7 @@ TEST_CASE("status is answered while a pose update waits for scans") {
   CHECK(answer.get_future().get().scans <= 1);
   CHECK_FALSE(moved);
   passes.release();
-  mapper.finish([] {});
+  mapper.finish([](const auto&) {});
 }
 
 }  // namespace warren
