@@ -36,6 +36,10 @@ constexpr BlockKey block_key_of(BlockOrdinal ordinal) {
   return block_of(key_of_morton(ordinal << 9));
 }
 
+// A region is 8x8x8 blocks: the ordinal of the first of them without its low nine bits.
+using RegionOrdinal = std::uint64_t;
+constexpr RegionOrdinal region_of(BlockOrdinal block) { return block >> 9; }
+
 // The blocks from `first` up to, not including, `end`.
 struct KeyInterval {
   BlockOrdinal first = 0;
@@ -45,6 +49,10 @@ struct KeyInterval {
   constexpr bool contains(BlockOrdinal ordinal) const { return first <= ordinal && ordinal < end; }
   friend bool operator==(const KeyInterval&, const KeyInterval&) = default;
 };
+
+constexpr KeyInterval keys_of_region(RegionOrdinal region) {
+  return {region << 9, (region + 1) << 9};
+}
 
 // What a diff packet says of itself: it holds whatever changed in these blocks after `from`, up to
 // and including `to`, as of `to`. Invariant of a valid claim: keys not empty and within

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <utility>
 
 #include <sodium.h>
 
@@ -11,7 +12,7 @@ namespace warren {
 namespace {
 
 // What is hashed begins with the level it belongs to, lest a node pass for one of another level.
-enum class Level : std::uint8_t { kBlock, kRegion, kRoot };
+enum class Level : std::uint8_t { kBlock, kRegion, kRoot, kBytes };
 
 class Hasher {
  public:
@@ -49,15 +50,6 @@ class Hasher {
   crypto_generichash_state state_{};
 };
 
-Hash hash_of(BlockOrdinal block, const CodeBlock& codes) {
-  Hasher hasher(Level::kBlock);
-  hasher.add(block);
-  for (const std::uint64_t cell : codes.known()) hasher.add(cell);
-  for (const std::uint64_t cell : codes.occupied()) hasher.add(cell);
-  hasher.add(codes.attributes());
-  return hasher.finish();
-}
-
 auto find_block(std::vector<LayerDigest::Entry>& blocks, BlockOrdinal block) {
   return std::lower_bound(
       blocks.begin(), blocks.end(), block,
@@ -75,9 +67,26 @@ auto insert_sparingly(std::vector<LayerDigest::Entry>& blocks,
 
 }  // namespace
 
+Hash hash_of(BlockOrdinal block, const CodeBlock& codes) {
+  Hasher hasher(Level::kBlock);
+  hasher.add(block);
+  for (const std::uint64_t cell : codes.known()) hasher.add(cell);
+  for (const std::uint64_t cell : codes.occupied()) hasher.add(cell);
+  hasher.add(codes.attributes());
+  return hasher.finish();
+}
+
+Hash hash_of_bytes(std::span<const std::uint8_t> bytes) {
+  Hasher hasher(Level::kBytes);
+  hasher.add(bytes);
+  return hasher.finish();
+}
+
 void LayerDigest::update(BlockOrdinal block, const CodeBlock& codes) {
   if (codes.empty()) return erase({block, block + 1});
-  Region& region = regions_[block >> 9];
+  const auto [entry, is_new] = regions_.try_emplace(region_of(block));
+  Region& region = entry->second;
+  assert(is_new || !region.rests());
   auto place = find_block(region.blocks, block);
   if (place == region.blocks.end() || place->ordinal != block) {
     place = insert_sparingly(region.blocks, place, {block, {}});
@@ -91,6 +100,7 @@ void LayerDigest::erase(const KeyInterval& keys) {
   auto entry = regions_.lower_bound(keys.first >> 9);
   while (entry != regions_.end() && entry->first << 9 < keys.end) {
     auto& [ordinal, region] = *entry;
+    assert(!region.rests() || (keys.first <= ordinal << 9 && (ordinal + 1) << 9 <= keys.end));
     region.blocks.erase(find_block(region.blocks, keys.first), find_block(region.blocks, keys.end));
     region.hash.reset();
     entry = region.blocks.empty() ? regions_.erase(entry) : std::next(entry);
@@ -118,7 +128,23 @@ std::vector<LayerDigest::Entry> LayerDigest::regions() const {
 
 std::vector<LayerDigest::Entry> LayerDigest::blocks_of(RegionOrdinal region) const {
   const auto found = regions_.find(region);
-  return found == regions_.end() ? std::vector<Entry>{} : found->second.blocks;
+  if (found == regions_.end()) return {};
+  assert(!found->second.rests());
+  return found->second.blocks;
+}
+
+void LayerDigest::rest(RegionOrdinal region) {
+  const auto found = regions_.find(region);
+  if (found == regions_.end()) return;
+  hash_of(found->first, found->second);
+  found->second.blocks = {};
+}
+
+void LayerDigest::wake(RegionOrdinal region, std::vector<Entry> blocks) {
+  const auto found = regions_.find(region);
+  if (found == regions_.end()) return;
+  assert(found->second.rests());
+  found->second.blocks = std::move(blocks);
 }
 
 std::size_t LayerDigest::memory_bytes() const {

@@ -22,8 +22,6 @@ using Hash = std::array<std::uint8_t, 32>;
 // prove equal maps, however each came about.
 class LayerDigest {
  public:
-  // 8x8x8 blocks: the key of the first of them without its low nine bits.
-  using RegionOrdinal = std::uint64_t;
   struct Entry {
     std::uint64_t ordinal = 0;  // of the region or block
     Hash hash{};
@@ -36,9 +34,15 @@ class LayerDigest {
   void erase(const KeyInterval& keys);
 
   Hash root() const;
-  // All regions, and the blocks of one of them, in key order.
+  // All regions, and the blocks of one of them, in key order. Precondition of blocks_of: the region
+  // is awake.
   std::vector<Entry> regions() const;
   std::vector<Entry> blocks_of(RegionOrdinal region) const;
+
+  // Keeps of a region nothing but its hash, until all its blocks are told again. In between its
+  // blocks may be erased all at once, but not changed.
+  void rest(RegionOrdinal region);
+  void wake(RegionOrdinal region, std::vector<Entry> blocks);
 
   std::size_t memory_bytes() const;
 
@@ -46,6 +50,8 @@ class LayerDigest {
   struct Region {
     std::vector<Entry> blocks;
     mutable std::optional<Hash> hash;  // none: to be computed
+
+    bool rests() const { return blocks.empty(); }
   };
 
   static const Hash& hash_of(RegionOrdinal ordinal, const Region& region);
@@ -53,6 +59,11 @@ class LayerDigest {
   std::map<RegionOrdinal, Region> regions_;
   mutable std::optional<Hash> root_;
 };
+
+// What block entries of a digest hold; for empty codes there is no entry.
+Hash hash_of(BlockOrdinal block, const CodeBlock& codes);
+// Of any bytes; never that of a node of a digest.
+Hash hash_of_bytes(std::span<const std::uint8_t> bytes);
 
 // The ordinals that stand with another hash, or only, in one of the lists. Preconditions: each list
 // is in rising order.

@@ -2,33 +2,36 @@
 #include "core/layer/layer_blocks.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <utility>
 
 namespace warren {
 
 const LayerBlock* LayerBlocks::find(BlockOrdinal block) const {
   const auto found = regions_.find(region_of(block));
-  if (found == regions_.end() || !found->second.has(place_of(block))) return nullptr;
-  return &pool_[found->second.slots[found->second.rank_of(place_of(block))]];
+  if (found == regions_.end()) return nullptr;
+  return blocks_of(*found)->find(RegionBlocks::place_of(block));
 }
 
 void LayerBlocks::erase(const KeyInterval& keys) {
   auto entry = regions_.lower_bound(region_of(keys.first));
   while (entry != regions_.end() && entry->first << 9 < keys.end) {
     auto& [ordinal, region] = *entry;
-    for (std::uint32_t place = 0; place < kBlocksPerRegion; ++place) {
-      if (!region.has(place) || !keys.contains(ordinal << 9 | place)) continue;
-      const auto slot = region.slots.begin() + static_cast<std::ptrdiff_t>(region.rank_of(place));
-      pool_[*slot] = {};
-      pool_.release(*slot);
-      region.slots.erase(slot);
-      region.present[place >> 6] &= ~(std::uint64_t{1} << (place & 63));
+    const KeyInterval all = keys_of_region(ordinal);
+    const bool whole = keys.first <= all.first && all.end <= keys.end;
+    if (!whole) {
+      wake(*entry);
+      const BlockOrdinal end = std::min(all.end, keys.end);
+      for (BlockOrdinal block = std::max(all.first, keys.first); block < end; ++block) {
+        region.awake.erase(RegionBlocks::place_of(block));
+      }
     }
-    if (!region.slots.empty()) {
+    if (!whole && !region.awake.empty()) {
       ++entry;
       continue;
     }
+    forget_unpacked(ordinal);
     by_change_.erase({region.changed_at, ordinal});
+    awake_by_change_.erase({region.changed_at, ordinal});
     entry = regions_.erase(entry);
   }
 }
@@ -36,57 +39,92 @@ void LayerBlocks::erase(const KeyInterval& keys) {
 std::vector<KeyInterval> LayerBlocks::regions_by_change(Revision from, std::size_t most) const {
   std::vector<KeyInterval> regions;
   for (auto latest = by_change_.rbegin(); latest != by_change_.rend(); ++latest) {
-    const auto& [changed_at, ordinal] = *latest;
-    if (changed_at <= from || regions.size() == most) break;
-    regions.push_back({ordinal << 9, (ordinal + 1) << 9});
+    if (latest->first <= from || regions.size() == most) break;
+    regions.push_back(keys_of_region(latest->second));
   }
   return regions;
 }
 
 void LayerBlocks::drop_history(Revision until) {
-  for (auto& [ordinal, region] : regions_) {
-    for (const std::uint32_t slot : region.slots) {
-      ChangeHistory& history = pool_[slot].history;
-      if (history.latest() <= until) history.drop();
-    }
+  for (auto& [ordinal, region] : regions_) region.awake.drop_history(until);
+}
+
+std::vector<RegionOrdinal> LayerBlocks::rest(Revision until, std::size_t most) {
+  std::vector<RegionOrdinal> resting;
+  while (resting.size() < most && !awake_by_change_.empty() &&
+         awake_by_change_.begin()->first <= until) {
+    const RegionOrdinal ordinal = awake_by_change_.begin()->second;
+    awake_by_change_.erase(awake_by_change_.begin());
+    Region& region = regions_.find(ordinal)->second;
+    region.packed = region.awake.packed(ordinal, region.changed_at);
+    region.awake = {};
+    resting.push_back(ordinal);
   }
+  return resting;
+}
+
+bool LayerBlocks::rests(RegionOrdinal region) const {
+  const auto found = regions_.find(region);
+  return found != regions_.end() && found->second.rests();
+}
+
+bool LayerBlocks::wake(RegionOrdinal region) {
+  const auto found = regions_.find(region);
+  return found != regions_.end() && wake(*found);
 }
 
 std::size_t LayerBlocks::memory_bytes() const {
-  // A node of either tree has 32 bytes of its own.
-  std::size_t bytes = pool_.memory_bytes() + regions_.size() * (32 + sizeof(Regions::value_type)) +
-                      by_change_.size() * (32 + sizeof(*by_change_.begin()));
+  // A node of any tree has 32 bytes of its own.
+  std::size_t bytes = regions_.size() * (32 + sizeof(Regions::value_type)) +
+                      (by_change_.size() + awake_by_change_.size()) *
+                          (32 + sizeof(ByChange::value_type));
   for (const auto& [ordinal, region] : regions_) {
-    bytes += region.slots.capacity() * sizeof(region.slots[0]);
-    for (const std::uint32_t slot : region.slots) {
-      bytes += pool_[slot].codes.heap_bytes() + pool_[slot].history.heap_bytes();
-    }
+    bytes += region.awake.heap_bytes() + region.packed.capacity();
+  }
+  for (const Unpacked& unpacked : unpacked_) {
+    bytes += sizeof(RegionBlocks) + unpacked.blocks->heap_bytes();
   }
   return bytes;
 }
 
-std::size_t LayerBlocks::Region::rank_of(std::uint32_t place) const {
-  const std::size_t word = place >> 6;
-  int rank = std::popcount(present[word] & ((std::uint64_t{1} << (place & 63)) - 1));
-  for (std::size_t before = 0; before < word; ++before) rank += std::popcount(present[before]);
-  return static_cast<std::size_t>(rank);
-}
-
-LayerBlock& LayerBlocks::find_or_add(Region& region, std::uint32_t place) {
-  const std::size_t rank = region.rank_of(place);
-  if (!region.has(place)) {
-    region.slots.insert(region.slots.begin() + static_cast<std::ptrdiff_t>(rank), pool_.allocate());
-    region.present[place >> 6] |= std::uint64_t{1} << (place & 63);
-  }
-  return pool_[region.slots[rank]];
+bool LayerBlocks::wake(Regions::value_type& entry) {
+  auto& [ordinal, region] = entry;
+  if (!region.rests()) return false;
+  forget_unpacked(ordinal);
+  region.awake = RegionBlocks::unpacked(region.packed);
+  region.packed = {};
+  awake_by_change_.emplace(region.changed_at, ordinal);
+  return true;
 }
 
 void LayerBlocks::mark_changed(Regions::value_type& entry, Revision revision) {
   auto& [ordinal, region] = entry;
   if (revision <= region.changed_at) return;
-  by_change_.erase({region.changed_at, ordinal});
-  by_change_.emplace(revision, ordinal);
+  for (ByChange* const order : {&by_change_, &awake_by_change_}) {
+    order->erase({region.changed_at, ordinal});
+    order->emplace(revision, ordinal);
+  }
   region.changed_at = revision;
+}
+
+LayerBlocks::SharedBlocks LayerBlocks::blocks_of(const Regions::value_type& entry) const {
+  // Owned by the region, not by this pointer.
+  if (!entry.second.rests()) return {std::shared_ptr<void>(), &entry.second.awake};
+  const auto found =
+      std::find_if(unpacked_.begin(), unpacked_.end(),
+                   [&](const Unpacked& unpacked) { return unpacked.region == entry.first; });
+  if (found != unpacked_.end()) {
+    std::rotate(unpacked_.begin(), found, found + 1);
+  } else {
+    if (unpacked_.size() == kRegionsReadMax) unpacked_.pop_back();
+    auto blocks = std::make_shared<RegionBlocks>(RegionBlocks::unpacked(entry.second.packed));
+    unpacked_.insert(unpacked_.begin(), {entry.first, std::move(blocks)});
+  }
+  return unpacked_.front().blocks;
+}
+
+void LayerBlocks::forget_unpacked(RegionOrdinal region) {
+  std::erase_if(unpacked_, [&](const Unpacked& unpacked) { return unpacked.region == region; });
 }
 
 std::vector<const LayerBlocks::Regions::value_type*> LayerBlocks::regions_changed(

@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "core/layer/change_history.hpp"
 #include "core/layer/claim.hpp"
-#include "core/layer/code_block.hpp"
-#include "core/voxel/chunked_pool.hpp"
+#include "core/layer/region_blocks.hpp"
 
 namespace warren {
 
-// A block that was emptied stays, with no codes, because others are still to be told.
-struct LayerBlock {
-  CodeBlock codes;
-  ChangeHistory history;
-};
-
-// All blocks of a layer in key order, found by key and by when they changed last.
+// All blocks of a layer in key order, found by key and by when they changed last. Regions that no
+// one changes can be laid to rest: packed, at a thirtieth of the memory. Reading one unpacks it into
+// a small cache, changing one wakes it for good. Because of the cache one thread at a time may use
+// this, even to read.
 class LayerBlocks {
  public:
+  static constexpr std::size_t kRegionsReadMax = 8;  // of those at rest, kept unpacked
+
+  // Null if there is none. Valid until the next call of any function here.
   const LayerBlock* find(BlockOrdinal block) const;
 
   // Calls change(LayerBlock&) on the block, which is made if there is none; `change` records
@@ -34,7 +32,8 @@ class LayerBlocks {
   void erase(const KeyInterval& keys);
 
   // Calls visit(BlockOrdinal, const LayerBlock&) in key order for the blocks changed after `from`,
-  // as long as it returns true. The effort does not grow with what did not change.
+  // as long as it returns true. The effort does not grow with what did not change. The block is
+  // valid during the visit, whatever else that reads.
   template <typename Visit>
   void for_each_changed(const KeyInterval& keys, Revision from, Visit&& visit) const;
 
@@ -44,42 +43,52 @@ class LayerBlocks {
   // Gives back the memory of histories that end at or before `until`.
   void drop_history(Revision until);
 
-  std::size_t size() const { return pool_.in_use(); }
+  // Lays the longest unchanged regions to rest, at most `most` of them, of those unchanged since
+  // `until`; which ones.
+  std::vector<RegionOrdinal> rest(Revision until, std::size_t most);
+  bool rests(RegionOrdinal region) const;
+  // False if it was awake.
+  bool wake(RegionOrdinal region);
+
   std::size_t memory_bytes() const;
 
  private:
-  // Of the blocks' place in a region, one bit each that is there, and their slots in bit order.
   struct Region {
     Revision changed_at;
-    std::array<std::uint64_t, 8> present{};
-    std::vector<std::uint32_t> slots;
+    RegionBlocks awake;
+    std::vector<std::uint8_t> packed;  // empty while it is awake
 
-    bool has(std::uint32_t place) const { return (present[place >> 6] >> (place & 63) & 1) != 0; }
-    std::size_t rank_of(std::uint32_t place) const;
+    bool rests() const { return !packed.empty(); }
   };
-  using RegionOrdinal = std::uint64_t;
   using Regions = std::map<RegionOrdinal, Region>;
+  using ByChange = std::set<std::pair<Revision, RegionOrdinal>>;
+  using SharedBlocks = std::shared_ptr<const RegionBlocks>;
 
-  static constexpr RegionOrdinal region_of(BlockOrdinal block) { return block >> 9; }
-  static constexpr std::uint32_t place_of(BlockOrdinal block) {
-    return static_cast<std::uint32_t>(block & 511);
-  }
+  struct Unpacked {
+    RegionOrdinal region = 0;
+    SharedBlocks blocks;
+  };
 
-  LayerBlock& find_or_add(Region& region, std::uint32_t place);
+  bool wake(Regions::value_type& entry);
   void mark_changed(Regions::value_type& entry, Revision revision);
+  // Of one at rest a copy, kept alive by the holder alone.
+  SharedBlocks blocks_of(const Regions::value_type& entry) const;
+  void forget_unpacked(RegionOrdinal region);
   // In key order; as many as a packet can need, not always all.
   std::vector<const Regions::value_type*> regions_changed(const KeyInterval& keys,
                                                           Revision from) const;
 
   Regions regions_;
-  std::set<std::pair<Revision, RegionOrdinal>> by_change_;
-  ChunkedPool<LayerBlock, 64> pool_;
+  ByChange by_change_;
+  ByChange awake_by_change_;
+  mutable std::vector<Unpacked> unpacked_;  // last read first
 };
 
 template <typename Change>
 void LayerBlocks::change(BlockOrdinal block, Change&& change) {
   auto& entry = *regions_.try_emplace(region_of(block)).first;
-  LayerBlock& changed = find_or_add(entry.second, place_of(block));
+  wake(entry);
+  LayerBlock& changed = entry.second.awake.find_or_add(RegionBlocks::place_of(block));
   change(changed);
   mark_changed(entry, changed.history.latest());
 }
@@ -90,13 +99,13 @@ void LayerBlocks::for_each_changed(const KeyInterval& keys, Revision from, Visit
   for (auto regions = regions_changed(left, from); !regions.empty();
        regions = regions_changed(left, from)) {
     for (const auto* entry : regions) {
-      const auto& [ordinal, region] = *entry;
-      for (std::uint32_t place = 0; place < kBlocksPerRegion; ++place) {
-        const BlockOrdinal block = ordinal << 9 | place;
-        if (!region.has(place) || !left.contains(block)) continue;
-        const LayerBlock& found = pool_[region.slots[region.rank_of(place)]];
-        if (found.history.latest() > from && !visit(block, found)) return;
-      }
+      const BlockOrdinal first = entry->first << 9;
+      const bool goes_on =
+          blocks_of(*entry)->for_each([&](std::uint32_t place, const LayerBlock& block) {
+            if (!left.contains(first | place) || block.history.latest() <= from) return true;
+            return static_cast<bool>(visit(first | place, block));
+          });
+      if (!goes_on) return;
     }
     left.first = (regions.back()->first + 1) << 9;
     if (left.empty()) return;

@@ -93,14 +93,16 @@ ApplyResult result_of(RaiseResult result) {
 
 template <typename Change>
 void Replica::change(BlockOrdinal ordinal, Change&& change) {
+  wake(region_of(ordinal));
   blocks_.change(ordinal, [&](LayerBlock& block) {
     change(block);
     digest_.update(ordinal, block.codes);
   });
 }
 
-Replica::Replica(const LayerId& id, const Holdings& holdings, std::span<const StoredBlock> blocks)
-    : id_(id), holdings_(holdings) {
+Replica::Replica(const LayerId& id, Resolution resolution, const Holdings& holdings,
+                 std::span<const StoredBlock> blocks)
+    : id_(id), resolution_(resolution), holdings_(holdings) {
   for (const StoredBlock& stored : blocks) {
     assert(Revision{} < stored.changed_at && stored.changed_at <= holdings_.at(stored.block));
     change(stored.block, [&](LayerBlock& block) {
@@ -110,12 +112,39 @@ Replica::Replica(const LayerId& id, const Holdings& holdings, std::span<const St
   }
 }
 
+std::vector<LayerDigest::Entry> Replica::digest_blocks(RegionOrdinal region) const {
+  if (!blocks_.rests(region)) return digest_.blocks_of(region);
+  std::vector<LayerDigest::Entry> entries;
+  blocks_.for_each_changed(keys_of_region(region), {}, [&](BlockOrdinal block, const auto& found) {
+    if (!found.codes.empty()) entries.push_back({block, hash_of(block, found.codes)});
+    return true;
+  });
+  return entries;
+}
+
+std::size_t Replica::rest(Revision until, std::size_t most) {
+  const std::vector<RegionOrdinal> resting = blocks_.rest(until, most);
+  for (const RegionOrdinal region : resting) digest_.rest(region);
+  return resting.size();
+}
+
+void Replica::wake(RegionOrdinal region) {
+  if (!blocks_.rests(region)) return;
+  digest_.wake(region, digest_blocks(region));
+  blocks_.wake(region);
+}
+
+void Replica::tell_listener(std::span<const BlockOrdinal> changed) const {
+  if (!listener_) return;
+  for (const BlockOrdinal block : changed) listener_(block);
+}
+
 Revision Replica::publish(std::span<const CodedBlock> blocks) {
   assert(holdings_.intervals().size() == 1);
   const Revision now = holdings_.at(0);
   assert(now.number < std::numeric_limits<std::uint32_t>::max());
   const Revision next{now.number + 1};
-  bool changed = false;
+  std::vector<BlockOrdinal> changed;
   for (const CodedBlock& published : blocks) {
     const LayerBlock* const held = blocks_.find(published.block);
     const CodeBlock before = held != nullptr ? held->codes : CodeBlock{};
@@ -125,10 +154,11 @@ Revision Replica::publish(std::span<const CodedBlock> blocks) {
       block.codes = published.codes;
       block.history.record(next, differ);
     });
-    changed = true;
+    changed.push_back(published.block);
   }
-  if (!changed) return now;
+  if (changed.empty()) return now;
   holdings_ = Holdings(next);
+  tell_listener(changed);
   return next;
 }
 
@@ -170,33 +200,53 @@ ApplyResult Replica::judge_and_apply(const LayerId& layer, std::span<const std::
   const auto diffs = read_blocks(*header, packet);
   if (!diffs) return result_of(diffs.error());
 
+  std::vector<BlockOrdinal> changed;
   for (const BlockDiff& diff : *diffs) {
     const Revision held = holdings_.at(diff.block);
     // A block that did not change since is the same already.
-    if (header->claim.from <= held && held < diff.changed_at) apply(diff);
+    const bool is_news = header->claim.from <= held && held < diff.changed_at;
+    if (is_news && apply(diff)) changed.push_back(diff.block);
   }
   holdings_.raise(header->claim);
+  tell_listener(changed);
   return ApplyResult::kApplied;
 }
 
-void Replica::apply(const BlockDiff& diff) {
+bool Replica::apply(const BlockDiff& diff) {
+  bool changed = false;
   change(diff.block, [&](LayerBlock& block) {
+    BlockCodes codes = diff.codes;
     if (diff.replaces) {
-      block.codes = CodeBlock(diff.codes);
       block.history.record_all(diff.changed_at);
-      return;
+    } else {
+      codes = block.codes.unpack();
+      codes.overlay(diff.codes);
+      block.history.record(diff.changed_at, diff.codes.known);
     }
-    BlockCodes codes = block.codes.unpack();
-    codes.overlay(diff.codes);
-    block.codes = CodeBlock(codes);
-    block.history.record(diff.changed_at, diff.codes.known);
+    CodeBlock applied(codes);
+    changed = block.codes != applied;
+    block.codes = std::move(applied);
   });
+  return changed;
 }
 
 bool Replica::forget(const KeyInterval& keys) {
   if (!holdings_.forget(keys)) return false;
+  std::vector<BlockOrdinal> changed;
+  if (listener_) {
+    blocks_.for_each_changed(keys, {}, [&](BlockOrdinal block, const LayerBlock& found) {
+      if (!found.codes.empty()) changed.push_back(block);
+      return true;
+    });
+  }
+  // What is left of the regions at either end must have its hashes.
+  for (const BlockOrdinal bound : {keys.first, keys.end - 1}) {
+    const KeyInterval region = keys_of_region(region_of(bound));
+    if (region.first < keys.first || keys.end < region.end) wake(region_of(bound));
+  }
   blocks_.erase(keys);
   digest_.erase(keys);
+  tell_listener(changed);
   return true;
 }
 

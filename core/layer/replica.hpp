@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/layer/coded_block.hpp"
@@ -13,6 +15,8 @@
 #include "core/layer/digest.hpp"
 #include "core/layer/holdings.hpp"
 #include "core/layer/layer_blocks.hpp"
+#include "core/layer/layer_pose.hpp"
+#include "core/layer/resolution.hpp"
 
 namespace warren {
 
@@ -45,17 +49,24 @@ struct EncodeRequest {
 // call it; copies change by packets, which arrive in any order, twice or never.
 class Replica {
  public:
-  explicit Replica(const LayerId& id) : id_(id) {}
+  explicit Replica(const LayerId& id, Resolution resolution = {})
+      : id_(id), resolution_(resolution) {}
   // As it was stored. What changed when within a block is forgotten.
-  Replica(const LayerId& id, const Holdings& holdings, std::span<const StoredBlock> blocks);
+  Replica(const LayerId& id, Resolution resolution, const Holdings& holdings,
+          std::span<const StoredBlock> blocks);
 
   const LayerId& id() const { return id_; }
+  Resolution resolution() const { return resolution_; }
+  LayerPose& pose() { return pose_; }
+  const LayerPose& pose() const { return pose_; }
   const Holdings& holdings() const { return holdings_; }
+  // Its root and regions; for their blocks ask digest_blocks().
   const LayerDigest& digest() const { return digest_; }
-  // Null if nothing was ever known of it.
+  std::vector<LayerDigest::Entry> digest_blocks(RegionOrdinal region) const;
+  // Null if nothing was ever known of it. Valid until the next call of any function here.
   const LayerBlock* find(BlockOrdinal block) const { return blocks_.find(block); }
   // Calls visit(BlockOrdinal, const LayerBlock&) in key order for the blocks changed after `from`,
-  // as long as it returns true; emptied ones are among them.
+  // as long as it returns true; emptied ones are among them. `visit` may read this replica.
   template <typename Visit>
   void for_each_changed(const KeyInterval& keys, Revision from, Visit&& visit) const {
     blocks_.for_each_changed(keys, from, visit);
@@ -86,20 +97,34 @@ class Replica {
   bool forget(const KeyInterval& keys);
   // Gives back memory: blocks unchanged since `until` will be told as a whole to who lacks them.
   void drop_history(Revision until) { blocks_.drop_history(until); }
+  // Packs the blocks of regions unchanged since `until`, of at most `most` regions, longest
+  // unchanged first; how many it did. They can be read, told and changed as before, at the price of
+  // unpacking, and their history is dropped. A region takes some milliseconds.
+  std::size_t rest(Revision until, std::size_t most);
+
+  // Called after publish(), apply() or forget() have changed the codes of a block, with the whole
+  // change done. It may read this replica.
+  void on_change(std::function<void(BlockOrdinal)> listener) { listener_ = std::move(listener); }
 
   std::size_t memory_bytes() const { return blocks_.memory_bytes() + digest_.memory_bytes(); }
 
  private:
   ApplyResult judge_and_apply(const LayerId& layer, std::span<const std::uint8_t> packet);
-  void apply(const BlockDiff& diff);
+  // Whether codes changed.
+  bool apply(const BlockDiff& diff);
   template <typename Change>
   void change(BlockOrdinal block, Change&& change);
+  void wake(RegionOrdinal region);
+  void tell_listener(std::span<const BlockOrdinal> changed) const;
 
   LayerId id_;
+  Resolution resolution_;
+  LayerPose pose_;
   Holdings holdings_;
   LayerBlocks blocks_;
   LayerDigest digest_;
   std::array<std::uint64_t, kApplyResults> apply_counts_{};
+  std::function<void(BlockOrdinal)> listener_;
 };
 
 }  // namespace warren

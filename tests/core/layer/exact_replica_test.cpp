@@ -33,6 +33,7 @@ std::uint64_t noticed(Fault fault, std::uint64_t seeds) {
 
 TEST_CASE("every block of every replica is the origin's at the revision held, whatever happens") {
   constexpr std::uint64_t kSeeds = 20000;
+  std::size_t rested = 0;
   std::array<std::uint64_t, kApplyResults> results{};
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     CAPTURE(seed);
@@ -42,12 +43,14 @@ TEST_CASE("every block of every replica is the origin's at the revision held, wh
     for (std::size_t i = 0; i < kApplyResults; ++i) {
       results[i] += fleet.count(static_cast<ApplyResult>(i));
     }
+    rested += fleet.regions_rested();
   }
   for (const ApplyResult met : {ApplyResult::kApplied, ApplyResult::kDuplicate, ApplyResult::kGap,
                                 ApplyResult::kOtherLayer}) {
     CHECK(results[static_cast<std::size_t>(met)] > kSeeds / 2);
   }
   CHECK(results[static_cast<std::size_t>(ApplyResult::kMalformed)] == 0);
+  CHECK(rested > kSeeds / 10);
 }
 
 TEST_CASE("replicas cut into as many intervals as there may be still catch up") {

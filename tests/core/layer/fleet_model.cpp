@@ -114,7 +114,12 @@ bool FleetModel::trouble() {
     restart(chance(random_, 20) ? nodes_[0] : copy);
   } else if (dice < 80) {
     Replica& node = nodes_[below(random_, copies() + 1)];
-    node.drop_history({below(random_, node.holdings().highest({}).number + 1)});
+    const Revision until{below(random_, node.holdings().highest({}).number + 1)};
+    if (chance(random_, 50)) {
+      node.drop_history(until);
+    } else {
+      regions_rested_ += node.rest(until, 1 + below(random_, 20));
+    }
   } else if (dice < 88) {
     copy = Replica(nodes_[0].id());
   } else if (dice < 92 && !plan_.narrow) {
@@ -126,7 +131,7 @@ bool FleetModel::trouble() {
 }
 
 void FleetModel::restart(Replica& replica) {
-  replica = Replica(replica.id(), replica.holdings(), stored(replica));
+  replica = Replica(replica.id(), {}, replica.holdings(), stored(replica));
 }
 
 void FleetModel::lose_origin_disk() {
@@ -148,7 +153,7 @@ void FleetModel::lose_last_tick() {
   for (std::size_t i = 0; i < blocks_.size() && last.number > 0; ++i) {
     blocks.push_back({blocks_[i], last, history_.back()[i]});
   }
-  nodes_[0] = Replica(nodes_[0].id(), Holdings(last), blocks);
+  nodes_[0] = Replica(nodes_[0].id(), {}, Holdings(last), blocks);
   publish();
 }
 
@@ -158,7 +163,7 @@ void FleetModel::lower_held(Replica& replica) {
   const Revision lowered{1 + below(random_, held.number - 1)};
   std::vector<StoredBlock> blocks = stored(replica);
   for (StoredBlock& block : blocks) block.changed_at = std::min(block.changed_at, lowered);
-  replica = Replica(replica.id(), Holdings(lowered), blocks);
+  replica = Replica(replica.id(), {}, Holdings(lowered), blocks);
 }
 
 // Plants the fault, or what is allowed: a mask that holds more than needed.

@@ -46,6 +46,7 @@ class FleetModel {
   std::optional<std::size_t> catch_up();
 
   std::size_t intervals_seen_max() const { return intervals_seen_max_; }
+  std::size_t regions_rested() const { return regions_rested_; }
   std::uint64_t count(ApplyResult result) const {
     return results_[static_cast<std::size_t>(result)];
   }
@@ -84,6 +85,7 @@ class FleetModel {
   };
   std::vector<Flight> air_;
   std::size_t intervals_seen_max_ = 0;
+  std::size_t regions_rested_ = 0;
   std::array<std::uint64_t, kApplyResults> results_{};
 };
 
