@@ -4,16 +4,16 @@
 #include <filesystem>
 
 #include "core/exchange/atomic_file.hpp"
-#include "core/exchange/map_snapshot.hpp"
+#include "core/exchange/exported_map.hpp"
 
 namespace warren {
 
 // Write the centres of the occupied voxels, `shift` voxels away from the layer's, as binary float32
 // x y z p cost: metres, probability of occupancy, and cost of the ground, 0 easy to 1 impossible,
 // NaN where there is no data.
-WriteResult write_pcd(const MapSnapshot& map, const LayerOrigin& shift,
+WriteResult write_pcd(const ExportedMap& map, const LayerOrigin& shift,
                       const std::filesystem::path& file);
-WriteResult write_ply(const MapSnapshot& map, const LayerOrigin& shift,
+WriteResult write_ply(const ExportedMap& map, const LayerOrigin& shift,
                       const std::filesystem::path& file);
 
 }  // namespace warren

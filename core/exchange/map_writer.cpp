@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/exchange/map_writer.hpp"
 
-#include <new>
 #include <optional>
+#include <utility>
 
 #include "core/exchange/atomic_file.hpp"
 #include "core/exchange/cloud_writer.hpp"
@@ -22,50 +22,67 @@ struct Job {
   std::function<WriteResult(const fs::path&)> write;
 };
 
-Job tree_job(const MapSnapshot& map, const MapCounts& counts, OctomapFormat format) {
-  FileFrame frame = frame_for_tree(map);
-  return {counts.free + counts.occupied, std::move(frame.note),
-          [&map, shift = frame.shift, format](const fs::path& file) {
+Job tree_job(ExportedMap map, FileFrame frame, OctomapFormat format) {
+  const std::uint64_t voxels = map.counts.free + map.counts.occupied;
+  return {voxels, std::move(frame.note),
+          [map = std::move(map), shift = frame.shift, format](const fs::path& file) {
             return write_octomap(map, shift, format, file);
           }};
 }
 
-Job cloud_job(const MapSnapshot& map, const MapCounts& counts, decltype(&write_ply) write) {
-  FileFrame frame = frame_for_cloud(map);
-  return {
-      counts.occupied, std::move(frame.note),
-      [&map, shift = frame.shift, write](const fs::path& file) { return write(map, shift, file); }};
+Job cloud_job(ExportedMap map, FileFrame frame, decltype(&write_ply) write) {
+  const std::uint64_t voxels = map.counts.occupied;
+  return {voxels, std::move(frame.note),
+          [map = std::move(map), shift = frame.shift, write](const fs::path& file) {
+            return write(map, shift, file);
+          }};
 }
 
-Job picture_job(const MapSnapshot& map, const MapCounts& counts, PictureColours colours) {
+Job picture_job(const MapSnapshot& map, PictureColours colours) {
+  const MapCounts counts = map.voxels.counts();
   return {counts.free + counts.occupied, "",
           [&map, colours](const fs::path& file) { return write_map_picture(map, file, colours); }};
 }
 
 std::optional<Job> job_for(const std::string& ending, const MapSnapshot& map,
                            PictureColours colours) {
-  const MapCounts counts = map.voxels.counts();
-  if (ending == ".bt") return tree_job(map, counts, OctomapFormat::kBinary);
-  if (ending == ".ot") return tree_job(map, counts, OctomapFormat::kFull);
-  if (ending == ".ply") return cloud_job(map, counts, write_ply);
-  if (ending == ".pcd") return cloud_job(map, counts, write_pcd);
-  if (ending == ".png") return picture_job(map, counts, colours);
+  if (ending == ".bt") return tree_job(exported(map), frame_for_tree(map), OctomapFormat::kBinary);
+  if (ending == ".ot") return tree_job(exported(map), frame_for_tree(map), OctomapFormat::kFull);
+  if (ending == ".ply") return cloud_job(exported(map), frame_for_cloud(map), write_ply);
+  if (ending == ".pcd") return cloud_job(exported(map), frame_for_cloud(map), write_pcd);
+  if (ending == ".png") return picture_job(map, colours);
   return std::nullopt;
+}
+
+// In the layer frame, whose keys fit any format.
+std::optional<Job> job_for(const std::string& ending, const Replica& layer) {
+  if (ending == ".bt") return tree_job(exported(layer), {}, OctomapFormat::kBinary);
+  if (ending == ".ot") return tree_job(exported(layer), {}, OctomapFormat::kFull);
+  if (ending == ".ply") return cloud_job(exported(layer), {}, write_ply);
+  if (ending == ".pcd") return cloud_job(exported(layer), {}, write_pcd);
+  return std::nullopt;
+}
+
+tl::expected<SaveReport, std::string> done(const std::optional<Job>& job, const fs::path& file,
+                                           const char* endings) {
+  if (!job) {
+    return tl::make_unexpected("cannot write " + file.string() + ": the ending must be " + endings);
+  }
+  const auto bytes = write_atomically(file, job->write);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  return SaveReport{lower_case_ending(file).substr(1), *bytes, job->voxels, job->note};
 }
 
 }  // namespace
 
 tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map, const fs::path& file,
                                                PictureColours colours) {
-  const std::string ending = lower_case_ending(file);
-  const auto job = job_for(ending, map, colours);
-  if (!job) {
-    return tl::make_unexpected("cannot write " + file.string() +
-                               ": the ending must be .bt, .ot, .ply, .pcd or .png");
-  }
-  const auto bytes = write_atomically(file, job->write);
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  return SaveReport{ending.substr(1), *bytes, job->voxels, job->note};
+  return done(job_for(lower_case_ending(file), map, colours), file,
+              ".bt, .ot, .ply, .pcd or .png");
+}
+
+tl::expected<SaveReport, std::string> export_layer(const Replica& layer, const fs::path& file) {
+  return done(job_for(lower_case_ending(file), layer), file, ".bt, .ot, .ply or .pcd");
 }
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 
 #include "core/exchange/map_picture.hpp"
 #include "core/exchange/map_snapshot.hpp"
+#include "core/layer/replica.hpp"
 
 namespace warren {
 
@@ -27,5 +28,9 @@ struct SaveReport {
 tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map,
                                                const std::filesystem::path& file,
                                                PictureColours colours = PictureColours::kHeight);
+
+// Likewise a layer as .bt .ot .ply or .pcd, in the layer frame.
+tl::expected<SaveReport, std::string> export_layer(const Replica& layer,
+                                                   const std::filesystem::path& file);
 
 }  // namespace warren

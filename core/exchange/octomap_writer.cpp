@@ -23,9 +23,9 @@ octomap::OcTreeKey key_in_tree(const VoxelKey& key, const LayerOrigin& shift) {
   return {axis(key.x + shift.x), axis(key.y + shift.y), axis(key.z + shift.z)};
 }
 
-void fill(octomap::OcTree& tree, const MapSnapshot& map, const LayerOrigin& shift) {
-  map.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState, float log_odds) {
-    tree.setNodeValue(key_in_tree(key, shift), log_odds, true);
+void fill(octomap::OcTree& tree, const ExportedMap& map, const LayerOrigin& shift) {
+  map.for_each_known([&](const ExportedVoxel& voxel) {
+    tree.setNodeValue(key_in_tree(voxel.key, shift), voxel.log_odds, true);
   });
   tree.updateInnerOccupancy();
   tree.prune();
@@ -40,10 +40,10 @@ void write_header(const octomap::OcTree& tree, const char* first_line, std::ostr
 
 }  // namespace
 
-WriteResult write_octomap(const MapSnapshot& map, const LayerOrigin& shift, OctomapFormat format,
+WriteResult write_octomap(const ExportedMap& map, const LayerOrigin& shift, OctomapFormat format,
                           const std::filesystem::path& file) {
-  octomap::OcTree tree(map.voxels.lattice().resolution_m());
-  set_sensor_model(tree, map.voxels.config().sensor_model);
+  octomap::OcTree tree(map.resolution_m);
+  set_sensor_model(tree, map.sensor_model);
   fill(tree, map, shift);
   std::ofstream stream(file, std::ios::binary);
   if (format == OctomapFormat::kBinary) {

@@ -289,3 +289,66 @@ TEST_CASE("a copy takes at most 2.5 bytes per known voxel") {
   for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
   CHECK(copy.memory_bytes() < known * 5 / 2);
 }
+
+TEST_CASE("whoever asked is told of blocks whose codes changed, once all is done") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::free()), block_with(700, 1, VoxelCode::free())});
+  Replica copy(kLayer);
+  std::vector<BlockOrdinal> told;
+  copy.on_change([&](BlockOrdinal block) {
+    told.push_back(block);
+    CHECK(copy.holdings() == origin.holdings());
+  });
+  CHECK(apply(copy, encoded(origin, 0)) == ApplyResult::kApplied);
+  CHECK(apply(copy, encoded(origin, 0)) == ApplyResult::kDuplicate);
+  CHECK(told == std::vector<BlockOrdinal>{9, 700});
+
+  told.clear();
+  publish(origin, {block_with(700, 2, VoxelCode::free())});
+  CHECK(apply(copy, encoded(origin, 0)) == ApplyResult::kApplied);
+  CHECK(told == std::vector<BlockOrdinal>{700});
+}
+
+TEST_CASE("the origin's listener hears of what it publishes, and of what is forgotten") {
+  Replica origin(kLayer);
+  std::vector<BlockOrdinal> told;
+  origin.on_change([&](BlockOrdinal block) { told.push_back(block); });
+  publish(origin, {block_with(9, 1, VoxelCode::free()), block_with(700, 1, VoxelCode::free())});
+  CHECK(told == std::vector<BlockOrdinal>{9, 700});
+  told.clear();
+  origin.publish({{block_with(9, 1, VoxelCode::free())}});
+  CHECK(told.empty());
+  CHECK(origin.forget({0, 512}));
+  CHECK(told == std::vector<BlockOrdinal>{9});
+}
+
+TEST_CASE("a packet of a later version is refused and counted") {
+  Replica origin(kLayer);
+  publish(origin, {block_with(9, 1, VoxelCode::free())});
+  DiffPacket packet = encoded(origin, 0);
+  ++packet.bytes[0];
+  Replica copy(kLayer);
+  for (int i = 0; i < 3; ++i) apply(copy, packet);
+  const auto index = static_cast<std::size_t>(ApplyResult::kUnknownVersion);
+  CHECK(copy.apply_counts()[index] == 3);
+  CHECK(copy.digest().root() == Replica(kLayer).digest().root());
+}
+
+TEST_CASE("two replicas that differ walk down their digests to the block") {
+  const Replica origin = noisy_layer(300);
+  for (const bool rested : {false, true}) {
+    Replica copy(kLayer);
+    for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
+    const BlockOrdinal altered = copy.digest_blocks(copy.digest().regions()[5].ordinal)[0].ordinal;
+    BlockCodes codes = copy.find(altered)->codes.unpack();
+    codes.set(77, codes.at(77) == VoxelCode::free() ? VoxelCode{} : VoxelCode::free());
+    publish(copy, {{altered, CodeBlock(codes)}});
+    if (rested) copy.rest(copy.holdings().at(0), 1000);
+
+    REQUIRE(copy.digest().root() != origin.digest().root());
+    const auto regions = differing(origin.digest().regions(), copy.digest().regions());
+    REQUIRE(regions == std::vector<std::uint64_t>{region_of(altered)});
+    const auto mine = origin.digest_blocks(regions[0]);
+    CHECK(differing(mine, copy.digest_blocks(regions[0])) == std::vector<std::uint64_t>{altered});
+  }
+}
