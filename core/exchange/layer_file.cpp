@@ -32,7 +32,7 @@ WrittenPose read_pose(ByteReader& in) {
   return written;
 }
 
-// A pose that was never written is the identity, so that a layer has one encoding.
+// Such a pose is the identity, or the file is malformed.
 bool is_unwritten(const WrittenPose& written) { return written == WrittenPose{}; }
 
 bool take_poses(LayerPose& pose, const WrittenPose& origin, const WrittenPose& correction) {

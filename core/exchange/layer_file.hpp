@@ -17,8 +17,8 @@ namespace warren {
 // A layer in a file of its own: docs/PROTOCOL.md, "Layer files".
 inline constexpr std::uint8_t kLayerFileVersion = 1;
 inline constexpr std::uint64_t kLayerFileBytesMax = std::uint64_t{256} << 20;
-// Many kilometres of tunnel; about 500 MB of memory.
-inline constexpr std::size_t kLayerFileBlocksMax = std::size_t{2} << 20;
+// Some 30 km of tunnel at 0.1 m; about 400 MB of memory.
+inline constexpr std::size_t kLayerFileBlocksMax = std::size_t{1} << 20;
 inline constexpr std::size_t kLayerFilePacketBytesMax = std::size_t{16} << 10;
 
 enum class LayerFileError : std::uint8_t {

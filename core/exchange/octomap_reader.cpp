@@ -93,7 +93,10 @@ class BlockCollector {
   bool add(std::uint64_t morton, int level, VoxelCode code) {
     if (level >= kBlockLevel) return add_blocks(morton >> 9, level, code);
     if (blocks_.empty() || blocks_.back().block != morton >> 9) {
-      if (!add_block(morton >> 9, {})) return false;
+      close();
+      if (blocks_.size() == kOctomapBlocksMax) return false;
+      blocks_.push_back({morton >> 9, {}});
+      is_open_ = true;
     }
     const auto first = static_cast<std::uint32_t>(morton & (kVoxelsPerBlock - 1));
     for (std::uint32_t place = first; place < first + (1U << 3 * level); ++place) {
@@ -110,24 +113,22 @@ class BlockCollector {
   bool add_blocks(BlockOrdinal first, int level, VoxelCode code) {
     const std::uint64_t count = std::uint64_t{1} << 3 * (level - kBlockLevel);
     if (count > kOctomapBlocksMax - blocks_.size()) return false;
+    close();
     BlockCodes codes;
     for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) codes.set(place, code);
-    for (std::uint64_t i = 0; i < count; ++i) add_block(first + i, codes);
-    return true;
-  }
-  bool add_block(BlockOrdinal block, const BlockCodes& codes) {
-    close();
-    if (blocks_.size() == kOctomapBlocksMax) return false;
-    blocks_.push_back({block, {}});
-    open_ = codes;
+    const CodeBlock uniform(codes);
+    for (std::uint64_t i = 0; i < count; ++i) blocks_.push_back({first + i, uniform});
     return true;
   }
   void close() {
-    if (!blocks_.empty()) blocks_.back().codes = CodeBlock(open_);
+    if (is_open_) blocks_.back().codes = CodeBlock(open_);
+    open_ = {};
+    is_open_ = false;
   }
 
   std::vector<CodedBlock> blocks_;
-  BlockCodes open_;  // of the last block
+  BlockCodes open_;  // of the last block, which is still being filled
+  bool is_open_ = false;
 };
 
 // Walks the nodes as they follow one another, parents first. A tree has 16 levels, so deeper ones

@@ -137,7 +137,7 @@ void LayerDigest::rest(RegionOrdinal region) {
   const auto found = regions_.find(region);
   if (found == regions_.end()) return;
   hash_of(found->first, found->second);
-  found->second.blocks = {};
+  found->second.blocks = std::vector<Entry>();
 }
 
 void LayerDigest::wake(RegionOrdinal region, std::vector<Entry> blocks) {

@@ -92,7 +92,7 @@ bool LayerBlocks::wake(Regions::value_type& entry) {
   if (!region.rests()) return false;
   forget_unpacked(ordinal);
   region.awake = RegionBlocks::unpacked(region.packed);
-  region.packed = {};
+  region.packed = std::vector<std::uint8_t>();
   awake_by_change_.emplace(region.changed_at, ordinal);
   return true;
 }

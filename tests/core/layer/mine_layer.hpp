@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/layer/replica.hpp"
 #include "tests/core/layer/random_codes.hpp"
@@ -14,12 +16,13 @@ inline VoxelCode mine_code(const VoxelKey& key, std::uint32_t noise) {
   const double middle = 60.0 * std::sin(key.x / 200.0);
   const double across = std::abs(key.y - middle) / 20.0;
   const double up = std::abs(key.z - 4.0) / 15.0;
-  const double out = std::max(across, up) + noise % 8 / 160.0;
-  if (out > 1.10) return {};
-  if (out < 0.98) return noise % 64 == 0 ? VoxelCode{} : VoxelCode::free();
-  if (noise % 16 == 0) return {};
+  const double rough = 0.03 * std::sin(key.x * 0.31) * std::sin(key.y * 0.23 + key.z * 0.41);
+  const double out = std::max(across, up) + rough + noise % 4 / 400.0;
+  if (out > 1.05) return {};
+  if (out < 0.98) return noise % 512 == 0 ? VoxelCode{} : VoxelCode::free();
+  if (noise % 32 == 0) return {};
   const bool is_floor = key.z < 0 && across < 0.98;
-  return VoxelCode::occupied(is_floor ? static_cast<CostCode>(1 + noise / 64 % 3) : kNoCostData,
+  return VoxelCode::occupied(is_floor ? static_cast<CostCode>(noise % 8 == 1 ? 2 : 1) : kNoCostData,
                              false);
 }
 
