@@ -183,6 +183,43 @@ case_the_ground_can_be_asked_about() {
   stop_daemon
 }
 
+case_layers_go_to_files_and_back() {
+  local layer=("$bin/warrenctl" layer)
+  scene 10
+  start_daemon
+  replay --rate max >/dev/null || fail "replay: $(cat "$work/replay.err")"
+  for ending in bt ot ply; do
+    "$bin/warrenctl" --socket "$work/control.sock" map save "$work/map.$ending" >/dev/null
+  done
+  stop_daemon
+  "${layer[@]}" import "$work/map.bt" "$work/bt.layer" --origin 7 >/dev/null
+  "${layer[@]}" import "$work/map.ot" "$work/ot.layer" --origin 7 >/dev/null
+  "${layer[@]}" diff "$work/bt.layer" "$work/ot.layer" >"$work/same" || fail "differ: $(cat "$work/same")"
+  [ "$("${layer[@]}" digest "$work/bt.layer")" = "$("${layer[@]}" digest "$work/ot.layer")" ] ||
+    fail "equal layers, other digests"
+  [ "$("${layer[@]}" digest "$work/bt.layer" --regions | wc -l)" -gt 1 ] || fail "no regions"
+  [ "$(stat -c %s "$work/bt.layer")" -lt "$(stat -c %s "$work/map.bt")" ] || fail "larger than the tree"
+  for ending in bt ot ply pcd; do
+    "${layer[@]}" export "$work/bt.layer" "$work/out.$ending" >/dev/null
+  done
+  "${layer[@]}" import "$work/out.bt" "$work/again.layer" >/dev/null
+  "${layer[@]}" diff "$work/bt.layer" "$work/again.layer" >/dev/null || fail "lost on the way"
+  [ "$(grep -a '^element vertex' "$work/out.ply")" = "$(grep -a '^element vertex' "$work/map.ply")" ] ||
+    fail "the cloud has other voxels"
+  printf '# Octomap OcTree binary file\nid OcTree\nsize 0\nres 0.1\ndata\n' >"$work/empty.bt"
+  "${layer[@]}" import "$work/empty.bt" "$work/empty.layer" >/dev/null
+  local code=0
+  "${layer[@]}" diff "$work/bt.layer" "$work/empty.layer" --json >"$work/diff.json" || code=$?
+  [ "$code" = 1 ] || fail "exit $code for layers that differ: $(cat "$work/diff.json")"
+  [ "$(field only_in_a <"$work/diff.json")" -gt 10000 ] || fail "$(cat "$work/diff.json")"
+  code=0
+  "${layer[@]}" diff "$work/map.bt" "$work/bt.layer" 2>"$work/err" || code=$?
+  [ "$code" = 2 ] || fail "exit $code for what is no layer"
+  grep -q "no layer file" "$work/err" || fail "$(cat "$work/err")"
+  if "${layer[@]}" export "$work/bt.layer" "$work/out.doc" 2>"$work/err"; then fail "wrote a .doc"; fi
+  grep -q '\.ply or \.pcd' "$work/err" || fail "$(cat "$work/err")"
+}
+
 case_a_world_is_drawn_and_its_radio_told() {
   "$bin/warren-sim" render --world room --out "$work/pictures" 2>/dev/null
   for picture in outside cutaway plan robot; do

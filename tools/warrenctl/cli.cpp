@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warrenctl/cli.hpp"
 
+#include <optional>
+
 #include <CLI/CLI.hpp>
 
 namespace warren {
@@ -14,6 +16,9 @@ struct Options {
   std::string file;
   std::string colours = "height";
   GroundCommand ground;
+  std::string other_file;
+  std::uint32_t origin = 0;
+  bool regions = false;
 };
 
 CLI::App* add_with_json(CLI::App& app, const char* name, const char* text, Options& options) {
@@ -42,6 +47,49 @@ CLI::App* add_query(CLI::App& app, Options& options) {
   return command;
 }
 
+// The commands on layer files; afterwards, which one was given.
+class LayerCommands {
+ public:
+  LayerCommands(CLI::App& app, Options& options) : options_(options) {
+    auto* const layer = app.add_subcommand("layer", "Layer files")->require_subcommand(1);
+    export_ = layer->add_subcommand("export", "Write a layer as a tree or a cloud");
+    add_files(*export_, "LAYER", "FILE", "Ending in .bt, .ot, .ply or .pcd");
+    import_ = layer->add_subcommand("import", "Make a layer of an OctoMap tree");
+    add_files(*import_, "TREE", "LAYER", "The layer file to write");
+    import_->add_option("--origin", options.origin, "Number of the node it counts as")
+        ->capture_default_str();
+    diff_ = add_with_json(*layer, "diff", "Count voxels that differ; exit code as diff's", options);
+    add_files(*diff_, "A", "B", "The layer to compare with");
+    digest_ = layer->add_subcommand("digest", "The hash that equal layers share");
+    digest_->add_option("LAYER", options.file)->required();
+    digest_->add_flag("--regions", options.regions,
+                      "And of each region, with the key of its lowest voxel");
+  }
+
+  std::optional<CtlCommand> parsed() const {
+    const Options& given = options_;
+    if (export_->parsed()) return LayerExportCommand{given.file, given.other_file};
+    if (import_->parsed()) {
+      return LayerImportCommand{given.file, given.other_file, given.origin};
+    }
+    if (diff_->parsed()) return LayerDiffCommand{given.file, given.other_file, given.json};
+    if (digest_->parsed()) return LayerDigestCommand{given.file, given.regions};
+    return std::nullopt;
+  }
+
+ private:
+  void add_files(CLI::App& command, const char* first, const char* second, const char* text) {
+    command.add_option(first, options_.file)->required();
+    command.add_option(second, options_.other_file, text)->required();
+  }
+
+  Options& options_;
+  CLI::App* export_ = nullptr;
+  CLI::App* import_ = nullptr;
+  CLI::App* diff_ = nullptr;
+  CLI::App* digest_ = nullptr;
+};
+
 CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const status = add_with_json(app, "status", "What the daemon takes and drops", options);
   auto* const map = app.add_subcommand("map", "The map of this robot")->require_subcommand(1);
@@ -57,6 +105,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   check->add_option("FILE", options.file)->required();
   auto* const print = config->add_subcommand("print", "Every key, of FILE or of the daemon");
   print->add_option("FILE", options.file);
+  const LayerCommands layer(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -69,6 +118,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
     options.ground.json = options.json;
     return options.ground;
   }
+  if (const auto command = layer.parsed()) return *command;
   if (check->parsed()) return ConfigCheckCommand{options.file};
   return ConfigPrintCommand{options.file};
 }
@@ -76,7 +126,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
 }  // namespace
 
 CtlArguments parse_command_line(int argc, char** argv) {
-  CLI::App app("Asks a running warrend.");
+  CLI::App app("Asks a running warrend, and works on layer files.");
   Options options;
   app.add_option("--socket", options.socket, "Control socket of the daemon")->capture_default_str();
   app.set_version_flag("--version", std::string("warrenctl ") + WARREN_VERSION);

@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include "tools/warrenctl/layer_commands.hpp"
+
 namespace warren {
 
 struct StatusCommand {
@@ -40,7 +42,9 @@ struct ExitCommand {  // all is said: help, version, or wrong usage
   int code = 0;
 };
 using CtlCommand = std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand,
-                                ConfigCheckCommand, ConfigPrintCommand, ExitCommand>;
+                                ConfigCheckCommand, ConfigPrintCommand, LayerExportCommand,
+                                LayerImportCommand, LayerDiffCommand, LayerDigestCommand,
+                                ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

@@ -85,6 +85,10 @@ struct Executor {
     return ask_and_show(socket, request,
                         [](const control::Response& response) { return response.config().yaml(); });
   }
+  int operator()(const LayerExportCommand& command) const { return run(command); }
+  int operator()(const LayerImportCommand& command) const { return run(command); }
+  int operator()(const LayerDiffCommand& command) const { return run(command); }
+  int operator()(const LayerDigestCommand& command) const { return run(command); }
   int operator()(const ExitCommand& command) const { return command.code; }
 };
 
