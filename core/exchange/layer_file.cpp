@@ -201,8 +201,8 @@ WriteResult write_layer(const Replica& replica, const std::filesystem::path& fil
 tl::expected<Replica, std::string> read_layer(const std::filesystem::path& file) {
   const auto content = read_file_bytes(file, kLayerFileBytesMax);
   if (!content) return tl::make_unexpected(content.error());
-  const std::span<const std::uint8_t> bytes(
-      reinterpret_cast<const std::uint8_t*>(content->data()), content->size());
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(content->data()),
+                                            content->size());
   try {
     auto replica = decode_layer(bytes);
     if (!replica) return tl::make_unexpected(file.string() + ": " + text_of(replica.error()));

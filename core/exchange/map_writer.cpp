@@ -77,8 +77,7 @@ tl::expected<SaveReport, std::string> done(const std::optional<Job>& job, const 
 
 tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map, const fs::path& file,
                                                PictureColours colours) {
-  return done(job_for(lower_case_ending(file), map, colours), file,
-              ".bt, .ot, .ply, .pcd or .png");
+  return done(job_for(lower_case_ending(file), map, colours), file, ".bt, .ot, .ply, .pcd or .png");
 }
 
 tl::expected<SaveReport, std::string> export_layer(const Replica& layer, const fs::path& file) {

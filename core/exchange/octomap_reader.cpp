@@ -186,8 +186,8 @@ class NodeWalk {
 };
 
 LayerId layer_id_of(std::string_view bytes, std::uint32_t origin) {
-  const Hash hash = hash_of_bytes(
-      {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  const Hash hash =
+      hash_of_bytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
   return {origin, 1, ByteReader(hash).number<std::uint64_t>()};
 }
 
@@ -200,9 +200,9 @@ Decoded<OctomapTree> decode_octomap(std::string_view bytes) {
   const std::string_view data = bytes.substr(header->bytes);
   BlockCollector blocks;
   NodeWalk walk({reinterpret_cast<const std::uint8_t*>(data.data()), data.size()}, blocks);
-  const bool whole = (header->is_binary ? walk.walk_states(0, kRootLevel)
-                                        : walk.walk_log_odds(0, kRootLevel)) &&
-                     walk.finish();
+  const bool whole =
+      (header->is_binary ? walk.walk_states(0, kRootLevel) : walk.walk_log_odds(0, kRootLevel)) &&
+      walk.finish();
   if (!whole) return decode_error(0, walk.error());
   return OctomapTree{header->resolution, blocks.take()};
 }

@@ -20,7 +20,9 @@ class CodeMix {
   CodeMix& operator|=(const CodeMix& other);
 
   // The one code that all have, or nothing.
-  std::optional<VoxelCode> uniform() const { return uniform_ ? std::optional(code_) : std::nullopt; }
+  std::optional<VoxelCode> uniform() const {
+    return uniform_ ? std::optional(code_) : std::nullopt;
+  }
   // One code for all that never promises more than the worst of them. Occupied if any is, a stair
   // if any is, with the highest cost; but without data if any occupied voxel is so and the others
   // would pass for easy ground. Else unknown if any is unknown, else free.

@@ -55,9 +55,9 @@ class LeafWalk {
     if (level == kBlockLevel) return walk_voxels(first);
     const std::uint64_t step = blocks_in_cube(level - 1);
     for (BlockOrdinal child = first; child < first + 8 * step; child += step) {
-      const auto* const end = std::partition_point(
-          blocks.data(), blocks.data() + blocks.size(),
-          [&](const MixedBlock& block) { return block.block < child + step; });
+      const auto* const end =
+          std::partition_point(blocks.data(), blocks.data() + blocks.size(),
+                               [&](const MixedBlock& block) { return block.block < child + step; });
       const auto count = static_cast<std::size_t>(end - blocks.data());
       walk_blocks(child, level - 1, blocks.first(count));
       blocks = blocks.subspan(count);

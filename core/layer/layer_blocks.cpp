@@ -75,9 +75,9 @@ bool LayerBlocks::wake(RegionOrdinal region) {
 
 std::size_t LayerBlocks::memory_bytes() const {
   // A node of any tree has 32 bytes of its own.
-  std::size_t bytes = regions_.size() * (32 + sizeof(Regions::value_type)) +
-                      (by_change_.size() + awake_by_change_.size()) *
-                          (32 + sizeof(ByChange::value_type));
+  std::size_t bytes =
+      regions_.size() * (32 + sizeof(Regions::value_type)) +
+      (by_change_.size() + awake_by_change_.size()) * (32 + sizeof(ByChange::value_type));
   for (const auto& [ordinal, region] : regions_) {
     bytes += region.awake.heap_bytes() + region.packed.capacity();
   }

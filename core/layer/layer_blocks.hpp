@@ -15,9 +15,9 @@
 namespace warren {
 
 // All blocks of a layer in key order, found by key and by when they changed last. Regions that no
-// one changes can be laid to rest: packed, at a thirtieth of the memory. Reading one unpacks it into
-// a small cache, changing one wakes it for good. Because of the cache one thread at a time may use
-// this, even to read.
+// one changes can be laid to rest: packed, at a thirtieth of the memory. Reading one unpacks it
+// into a small cache, changing one wakes it for good. Because of the cache one thread at a time may
+// use this, even to read.
 class LayerBlocks {
  public:
   static constexpr std::size_t kRegionsReadMax = 8;  // of those at rest, kept unpacked

@@ -41,10 +41,10 @@ struct ConfigPrintCommand {
 struct ExitCommand {  // all is said: help, version, or wrong usage
   int code = 0;
 };
-using CtlCommand = std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand,
-                                ConfigCheckCommand, ConfigPrintCommand, LayerExportCommand,
-                                LayerImportCommand, LayerDiffCommand, LayerDigestCommand,
-                                ExitCommand>;
+using CtlCommand =
+    std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
+                 ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
+                 LayerDigestCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

@@ -117,8 +117,8 @@ TEST_CASE("a layer with as many intervals as there may be comes back") {
       changes.push_back({kOrdinalEnd / 2 + block, CodeBlock(random_codes(random))});
     }
     origin.publish(changes);
-    const KeyInterval keys{i == 1 ? 0 : i * 512, i == Holdings::kIntervalsMax ? kOrdinalEnd
-                                                                               : (i + 1) * 512};
+    const KeyInterval keys{i == 1 ? 0 : i * 512,
+                           i == Holdings::kIntervalsMax ? kOrdinalEnd : (i + 1) * 512};
     for (KeyInterval left = keys; !left.empty();) {
       const auto packet = origin.encode({left, {}});
       REQUIRE(copy.apply(kLayer, packet->bytes) == ApplyResult::kApplied);
@@ -137,8 +137,8 @@ TEST_CASE("the bytes of a layer file are these") {
   for (const std::uint8_t byte : bytes) fnv1a = (fnv1a ^ byte) * 0x100000001B3;
   CHECK(bytes.size() == 250);
   CHECK(fnv1a == 17309338006732149698U);
-  const Bytes head{'W', 'R', 'N', 'L', 'A', 'Y', 'R', 1, 7, 0, 0, 0, 3, 0, 0, 0,
-                   0xF0, 0xDE, 0xBC, 0x9A, 0x78, 0x56, 0x34, 0x12, 0xF0, 0x49, 2, 0};
+  const Bytes head{'W', 'R', 'N',  'L',  'A',  'Y',  'R',  1,    7,    0,    0,    0,    3, 0,
+                   0,   0,   0xF0, 0xDE, 0xBC, 0x9A, 0x78, 0x56, 0x34, 0x12, 0xF0, 0x49, 2, 0};
   CHECK(Bytes(bytes.begin(), bytes.begin() + 28) == head);
 }
 
@@ -158,8 +158,8 @@ TEST_CASE("a layer file cut anywhere, or with a bit flipped anywhere, is refused
 TEST_CASE("forged files with a right checksum are read in bounds") {
   Bytes content = unsealed(encode_layer(small_layer()));
   for (std::size_t length = 8; length < content.size(); ++length) {
-    REQUIRE_FALSE(decode_layer(sealed(Bytes(content.begin(), content.begin() +
-                                                static_cast<std::ptrdiff_t>(length)))));
+    REQUIRE_FALSE(decode_layer(
+        sealed(Bytes(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(length)))));
   }
   std::set<LayerFileError> met;
   for (std::size_t bit = 0; bit < content.size() * 8; ++bit) {

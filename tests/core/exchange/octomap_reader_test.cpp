@@ -98,9 +98,8 @@ TEST_CASE("a map that was saved comes back, and the same file is the same layer"
     const auto layer = read_octomap(folder / name, 1);
     REQUIRE_MESSAGE(layer, layer.error());
     States expected;
-    map.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
-      expected[key] = state;
-    });
+    map.voxels.for_each_known_voxel(
+        KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) { expected[key] = state; });
     CHECK(states_of(*layer) == expected);
     CHECK(read_octomap(folder / name, 1)->id() == layer->id());
   }
@@ -141,8 +140,9 @@ TEST_CASE("an empty tree is an empty layer") {
 
 TEST_CASE("what is no tree, or too deep, or too large, is refused with the reason") {
   CHECK(error_of("").find("first line") != std::string::npos);
-  CHECK(error_of("# Octomap OcTree binary file\nid ColorOcTree\nres 0.1\ndata\n")
-            .find("id OcTree") != std::string::npos);
+  CHECK(
+      error_of("# Octomap OcTree binary file\nid ColorOcTree\nres 0.1\ndata\n").find("id OcTree") !=
+      std::string::npos);
   for (const char* res : {"0", "-1", "nan", "1e9", "0.1x", ""}) {
     CHECK(error_of(std::string("# Octomap OcTree file\nid OcTree\nres ") + res + "\ndata\n")
               .find("\"res\"") != std::string::npos);
