@@ -15,9 +15,8 @@ std::vector<ChangedVoxel> changed_voxels(std::span<const CodedBlock> now,
       if (code != codes.at(place)) changed.push_back({block.block << 9 | place, code});
     });
   }
-  std::sort(changed.begin(), changed.end(), [](const ChangedVoxel& a, const ChangedVoxel& b) {
-    return a.morton < b.morton;
-  });
+  std::sort(changed.begin(), changed.end(),
+            [](const ChangedVoxel& a, const ChangedVoxel& b) { return a.morton < b.morton; });
   return changed;
 }
 

@@ -33,6 +33,13 @@ struct RawPipeline {
   bool json = false;
 };
 
+struct RawWire {
+  RawSource source;
+  RawMap map;
+  WireOptions options;
+  bool json = false;
+};
+
 struct RawTerrain {
   RawSource source;
   bool json = false;
@@ -84,6 +91,22 @@ void add_options(CLI::App& app, RawIntegrate& raw) {
   add_map(app, raw.map);
   app.add_option("--growth-copies", raw.growth_copies,
                  "also measure our cost in a map of so many copies of the scene")
+      ->check(CLI::Range(0, 24))
+      ->capture_default_str();
+  app.add_flag("--json", raw.json, "one JSON object instead of text");
+}
+
+void add_options(CLI::App& app, RawWire& raw) {
+  add_source(app, raw.source, "m; 0: no limit");
+  add_map(app, raw.map);
+  app.add_option("--tick", raw.options.tick_s, "between publishing ticks, s")
+      ->check(CLI::Range(0.01, 1e4))
+      ->capture_default_str();
+  app.add_option("--rate", raw.options.rate_hz, "of the scans, if poses carry no time")
+      ->check(CLI::Range(0.001, 1e4))
+      ->capture_default_str();
+  app.add_option("--growth-copies", raw.options.growth_copies,
+                 "also measure publishing and applying in a map of so many copies of the scene")
       ->check(CLI::Range(0, 24))
       ->capture_default_str();
   app.add_flag("--json", raw.json, "one JSON object instead of text");
@@ -166,6 +189,12 @@ PipelineCommand resolve(const RawPipeline& raw) {
           raw.json};
 }
 
+WireCommand resolve(const RawWire& raw) {
+  WireOptions options = raw.options;
+  options.map = map_config_of(raw.map);
+  return {source_of(raw.source), options, max_range_of(raw.source), raw.json};
+}
+
 TerrainCommand resolve(const RawTerrain& raw) {
   return {source_of(raw.source), max_range_of(raw.source), raw.json};
 }
@@ -201,6 +230,7 @@ Command parse_command_line(int argc, char** argv) {
   RawTerrain terrain;
   RawPipeline pipeline;
   RawTerrainQuality terrain_quality;
+  RawWire wire;
   CLI::App* const integrate_app =
       app.add_subcommand("integrate", "scans into a map, beside OctoMap");
   CLI::App* const map_quality_app =
@@ -211,11 +241,14 @@ Command parse_command_line(int argc, char** argv) {
       "pipeline", "scans into a map with costs, beside PCL and OctoMap together");
   CLI::App* const terrain_quality_app = app.add_subcommand(
       "terrain-quality", "costs of the ground against what vehicles can do in simulated worlds");
+  CLI::App* const wire_app =
+      app.add_subcommand("wire", "diff-maps into packets, beside other encodings and OctoMap");
   add_options(*integrate_app, integrate);
   add_options(*map_quality_app, map_quality);
   add_options(*terrain_app, terrain);
   add_options(*pipeline_app, pipeline);
   add_options(*terrain_quality_app, terrain_quality);
+  add_options(*wire_app, wire);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -225,6 +258,7 @@ Command parse_command_line(int argc, char** argv) {
   if (terrain_app->parsed()) return resolve(terrain);
   if (pipeline_app->parsed()) return resolve(pipeline);
   if (terrain_quality_app->parsed()) return resolve(terrain_quality);
+  if (wire_app->parsed()) return resolve(wire);
   return resolve(integrate);
 }
 

@@ -63,6 +63,16 @@ int execute(const TerrainQualityCommand& command) {
   return print(command.json ? to_json(*results, command.options) + "\n" : to_text(*results));
 }
 
+int execute(const WireCommand& command) {
+  const auto sequence =
+      load_sequence(command.source, command.options.map.resolution_m, command.max_range_m);
+  if (!sequence) return fail(sequence.error());
+  const auto result = bench_wire(*sequence, command.options);
+  if (!result) return fail(result.error());
+  return print(command.json ? to_json(*result, command.options, command.max_range_m) + "\n"
+                            : to_text(*result));
+}
+
 int execute(const ExitCommand& command) { return command.code; }
 
 }  // namespace

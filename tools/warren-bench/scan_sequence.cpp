@@ -77,8 +77,9 @@ tl::expected<ScanSequence, std::string> load_sequence(const SequenceSource& sour
     if (!origin) return tl::unexpected((*files)[i].string() + ": its pose is not finite");
     const auto prepared = preparer.prepare(scan, filter, *origin, resolution_m, sequence.rejected);
     if (!prepared) return tl::unexpected((*files)[i].string() + ": its pose is not usable");
-    sequence.scans.push_back(
-        {prepared->origin_layer, {prepared->points_layer.begin(), prepared->points_layer.end()}});
+    sequence.scans.push_back({prepared->origin_layer,
+                              {prepared->points_layer.begin(), prepared->points_layer.end()},
+                              (*poses)[i].time_s});
   }
   return sequence;
 }

@@ -26,6 +26,7 @@ struct ScanSequence {
   struct Item {
     Point3f origin_layer;
     std::vector<Point3f> points_layer;
+    std::optional<double> time_s{};
   };
   std::vector<Item> scans;
   std::optional<double> max_range_m;
