@@ -59,7 +59,10 @@ std::optional<CatchUp> measure(const WireTape& tape, const Replica& origin, cons
   Replica from_relay = copy_of_first(tape, ticks, origin, packet_bytes);
   CatchUp result;
   result.missed_share = missed_share;
-  result.snapshot_bytes = snapshot_bytes(origin, from_origin.holdings().at(0), packet_bytes);
+  const Revision held = from_origin.holdings().at(0);
+  result.snapshot_bytes = snapshot_bytes(origin, held, packet_bytes);
+  result.key_order_bytes = bytes_of(sweep(origin, held, packet_bytes));
+  result.relay_key_order_bytes = bytes_of(sweep(relay, held, packet_bytes));
   const auto bytes = catch_up(origin, from_origin, packet_bytes);
   const auto relay_bytes = catch_up(relay, from_relay, packet_bytes);
   if (!bytes || !relay_bytes) return std::nullopt;

@@ -16,11 +16,16 @@ struct CatchUp {
   double missed_share = 0.0;  // of the ticks, at the end of the run
   std::uint64_t bytes = 0;
   std::uint64_t relay_bytes = 0;  // from a relay that was itself fed in bulk in the end
+  // The same without the hot regions first: what those cost is the difference.
+  std::uint64_t key_order_bytes = 0;
+  std::uint64_t relay_key_order_bytes = 0;
   // Of the blocks that changed meanwhile, whole, as they are in the end.
   std::uint64_t snapshot_bytes = 0;
 
   double ratio() const { return share(bytes); }
   double relay_ratio() const { return share(relay_bytes); }
+  double key_order_ratio() const { return share(key_order_bytes); }
+  double relay_key_order_ratio() const { return share(relay_key_order_bytes); }
 
  private:
   double share(std::uint64_t of) const {

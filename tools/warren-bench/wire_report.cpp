@@ -38,7 +38,9 @@ Json catch_ups_json(const WireResult& r) {
     all.push_back({{"missed_share", one.missed_share},
                    {"snapshot_bytes", one.snapshot_bytes},
                    {"ratio", one.ratio()},
-                   {"relay_ratio", one.relay_ratio()}});
+                   {"ratio_key_order", one.key_order_ratio()},
+                   {"relay_ratio", one.relay_ratio()},
+                   {"relay_ratio_key_order", one.relay_key_order_ratio()}});
   }
   return all;
 }
@@ -120,6 +122,7 @@ std::string to_text(const WireResult& r) {
     const std::string missed =
         fmt::format("{:.0f} % missed, of a snapshot", 100 * one.missed_share);
     text += line(missed, one.ratio()) + line(missed + ", by a relay", one.relay_ratio());
+    text += line(missed + ", key order", one.key_order_ratio());
   }
   text += line("memory_bytes_per_known_voxel, origin", r.memory_origin);
   text += line("memory_bytes_per_known_voxel, copy", r.memory_copy);
