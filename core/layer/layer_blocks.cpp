@@ -50,6 +50,7 @@ void LayerBlocks::drop_history(Revision until) {
 }
 
 std::vector<RegionOrdinal> LayerBlocks::rest(Revision until, std::size_t most) {
+  unpacked_.clear();
   std::vector<RegionOrdinal> resting;
   while (resting.size() < most && !awake_by_change_.empty() &&
          awake_by_change_.begin()->first <= until) {

@@ -44,7 +44,7 @@ class LayerBlocks {
   void drop_history(Revision until);
 
   // Lays the longest unchanged regions to rest, at most `most` of them, of those unchanged since
-  // `until`; which ones.
+  // `until`; which ones. Empties the cache.
   std::vector<RegionOrdinal> rest(Revision until, std::size_t most);
   bool rests(RegionOrdinal region) const;
   // False if it was awake.

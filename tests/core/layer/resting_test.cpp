@@ -126,11 +126,14 @@ TEST_CASE("blocks at rest can be forgotten, in part of a region too") {
 TEST_CASE("reading a whole layer at rest wakes nothing for good") {
   Replica layer = test::mine_layer(kLayer, 200);
   layer.rest(layer.holdings().at(0), kAll);
+  const std::size_t unread = layer.memory_bytes();
   encode_all(layer, {});
   const std::size_t after_one = layer.memory_bytes();
   encode_all(layer, {});
   content(layer);
   CHECK(layer.memory_bytes() == after_one);
+  layer.rest({0}, 1);
+  CHECK(layer.memory_bytes() <= unread + 1024);
 }
 
 TEST_CASE("a visitor may read other blocks at rest, as many as it likes") {
