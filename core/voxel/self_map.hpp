@@ -11,6 +11,7 @@
 #include "core/voxel/block_store.hpp"
 #include "core/voxel/cost_commit.hpp"
 #include "core/voxel/key.hpp"
+#include "core/voxel/ray_cast.hpp"
 #include "core/voxel/scan.hpp"
 #include "core/voxel/sensor_model.hpp"
 #include "core/voxel/voxel_cost.hpp"
@@ -46,19 +47,6 @@ struct CostCounts {
   std::uint64_t up_to_0p10 = 0;
   std::uint64_t up_to_0p20 = 0;  // and above 0.10
   std::uint64_t above_0p20 = 0;
-};
-
-struct RayHit {
-  VoxelKey key;
-  VoxelState state = VoxelState::kUnknown;  // occupied; or unknown, if such stops the ray
-  double range_m = 0.0;                     // from the origin to where the ray enters the voxel
-};
-
-struct RayQuery {
-  Point3f origin_layer;
-  Point3f direction_layer;  // any length but zero
-  double max_range_m = 0.0;
-  bool unknown_stops = true;
 };
 
 // The occupancy map that one robot measured itself, in one layer. After any sequence of scans every

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/layer/merge_index.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace warren {
+namespace {
+
+VoxelKey region_key_of(const BlockKey& block) { return {block.x >> 3, block.y >> 3, block.z >> 3}; }
+
+}  // namespace
+
+void MergeIndex::touch(const BlockKey& block) {
+  Region& region = region_around(block);
+  if (region.entries[slot_in_region(block)].touches++ > 0) return;
+  if (region.touched++ == 0) --untouched_regions_;
+}
+
+void MergeIndex::untouch(const BlockKey& block) {
+  Region& region = region_around(block);
+  MergeEntry& entry = region.entries[slot_in_region(block)];
+  assert(entry.touches > 0);
+  if (--entry.touches > 0) return;
+  if (--region.touched == 0) ++untouched_regions_;
+}
+
+MergeEntry& MergeIndex::mark_changed(const BlockKey& block, std::uint64_t number) {
+  Region& region = region_around(block);
+  region.changed_at = number;
+  MergeEntry& entry = region.entries[slot_in_region(block)];
+  entry.changed_at = number;
+  return entry;
+}
+
+std::size_t MergeIndex::forget_untouched() {
+  const std::size_t forgotten =
+      std::erase_if(regions_, [](const auto& region) { return region->touched == 0; });
+  untouched_regions_ = 0;
+  rebuild(slots_.size());
+  return forgotten;
+}
+
+std::vector<MergeIndex::Region*> MergeIndex::regions_in_order() const {
+  std::vector<Region*> regions;
+  regions.reserve(regions_.size());
+  for (const auto& region : regions_) regions.push_back(region.get());
+  const auto order = [](const Region* region) {
+    const VoxelKey& key = region->key;
+    return morton_of({key.x * kRegionEdge, key.y * kRegionEdge, key.z * kRegionEdge});
+  };
+  std::sort(regions.begin(), regions.end(),
+            [&](const Region* a, const Region* b) { return order(a) < order(b); });
+  return regions;
+}
+
+std::size_t MergeIndex::memory_bytes() const {
+  return slots_.capacity() * sizeof(Slot) + regions_.capacity() * sizeof(regions_[0]) +
+         regions_.size() * sizeof(Region);
+}
+
+MergeIndex::Region& MergeIndex::region_around(const BlockKey& block) {
+  const VoxelKey key = region_key_of(block);
+  const std::uint32_t found = find_region(key);
+  if (found != kNone) return *regions_[found];
+  regions_.push_back(std::make_unique<Region>());
+  regions_.back()->key = key;
+  ++untouched_regions_;
+  if (regions_.size() * 2 > slots_.size()) {
+    rebuild(slots_.size() * 2);
+  } else {
+    insert(code_of(key), static_cast<std::uint32_t>(regions_.size() - 1));
+  }
+  return *regions_.back();
+}
+
+void MergeIndex::insert(std::uint32_t code, std::uint32_t index) {
+  std::size_t at = first_slot(code);
+  while (slots_[at].code != kNone) at = (at + 1) & (slots_.size() - 1);
+  slots_[at] = {code, index};
+}
+
+void MergeIndex::rebuild(std::size_t slots) {
+  slots_.assign(slots, Slot{});
+  for (std::uint32_t index = 0; index < regions_.size(); ++index) {
+    insert(code_of(regions_[index]->key), index);
+  }
+}
+
+}  // namespace warren

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "core/layer/merge_map.hpp"
+
+namespace warren {
+namespace {
+
+bool intersect(const KeyBox& box, const VoxelKey& low, std::int32_t edge) {
+  const auto overlap = [edge](std::int32_t from, std::int32_t to, std::int32_t first) {
+    return first <= to && first + edge - 1 >= from;
+  };
+  return overlap(box.low.x, box.high.x, low.x) && overlap(box.low.y, box.high.y, low.y) &&
+         overlap(box.low.z, box.high.z, low.z);
+}
+
+void merge_safest(const SampledBlock& sampled, SourceIndex source, MergedBlock& merged) {
+  for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+    MergedVoxel& voxel = merged[place];
+    const VoxelCode code = sampled.codes[place];
+    if (is_safer(code, voxel.code) ||
+        (voxel.source == kNoSource && code.state() != VoxelState::kUnknown)) {
+      voxel.source = source;
+    }
+    voxel.code = safest(code, voxel.code);
+  }
+}
+
+using BlockTimes = std::array<std::int64_t, kVoxelsPerBlock>;
+
+void merge_newest(const SampledBlock& sampled, SourceIndex source, MergedBlock& merged,
+                  BlockTimes& times_ns) {
+  for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+    const VoxelCode code = sampled.codes[place];
+    if (code.state() == VoxelState::kUnknown) continue;
+    const bool first = merged[place].source == kNoSource;
+    if (!first && sampled.changed_ns[place] <= times_ns[place]) continue;
+    merged[place] = {code, source};
+    times_ns[place] = sampled.changed_ns[place];
+  }
+}
+
+void overlay_self(const SampledBlock& sampled, SourceIndex source, MergedBlock& merged) {
+  for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+    const VoxelCode code = sampled.codes[place];
+    if (code.state() != VoxelState::kUnknown) merged[place] = {code, source};
+  }
+}
+
+}  // namespace
+
+MergedVoxel MergeMap::voxel(const VoxelKey& key) {
+  if (!KeyBox{}.contains(key)) return {};
+  MergeEntry* const entry = index_.find(key);
+  if (entry == nullptr || entry->cached == MergeEntry::kNothingKnown) return {};
+  const MergedBlock* const block = derived(*entry, block_of(key));
+  return block == nullptr ? MergedVoxel{} : (*block)[morton9(key.x, key.y, key.z)];
+}
+
+MergedVoxel MergeMap::voxel(const Point3f& point_merge) {
+  const auto key = lattice_.key_of(point_merge);
+  return key ? voxel(*key) : MergedVoxel{};
+}
+
+std::optional<RayHit> MergeMap::cast_ray(const RayQuery& query) {
+  return warren::cast_ray(lattice_, query,
+                          [this](const VoxelKey& key) { return voxel(key).code.state(); });
+}
+
+void MergeMap::for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit) {
+  const auto visit_block = [&](const BlockKey& key, const MergedBlock& block) {
+    const VoxelKey first = first_voxel_of(key);
+    for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+      if (block[place].code.state() == VoxelState::kUnknown) continue;
+      const VoxelKey within = place_of_morton9(place);
+      const VoxelKey voxel{first.x + within.x, first.y + within.y, first.z + within.z};
+      if (box.contains(voxel)) visit(voxel, block[place]);
+    }
+  };
+  for (MergeIndex::Region* const region : index_.regions_in_order()) {
+    const VoxelKey low{region->key.x * kRegionEdge, region->key.y * kRegionEdge,
+                       region->key.z * kRegionEdge};
+    if (region->touched == 0 || !intersect(box, low, kRegionEdge)) continue;
+    for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
+      const BlockKey key = block_in_region(region->key, slot);
+      if (!intersect(box, first_voxel_of(key), kBlockEdge)) continue;
+      const MergedBlock* const block = derived(region->entries[slot], key);
+      if (block == nullptr) continue;
+      // The visitor may ask for other blocks, which can push this one out.
+      const MergedBlock copy = *block;
+      visit_block(key, copy);
+    }
+  }
+}
+
+std::optional<std::vector<BlockKey>> MergeMap::blocks_changed_since(std::uint64_t cursor) const {
+  if (cursor != 0 && cursor < forgotten_until_) return std::nullopt;
+  std::vector<BlockKey> changed;
+  for (const MergeIndex::Region* const region : index_.regions_in_order()) {
+    if (region->changed_at <= cursor) continue;
+    for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
+      if (region->entries[slot].changed_at <= cursor) continue;
+      changed.push_back(block_in_region(region->key, slot));
+    }
+  }
+  return changed;
+}
+
+const MergedBlock* MergeMap::derived(MergeEntry& entry, const BlockKey& block) {
+  if (entry.cached >= MergeEntry::kFirstCached) return &cache_.get(entry);
+  if (entry.touches == 0 || entry.cached == MergeEntry::kNothingKnown) return nullptr;
+  MergedBlock merged{};
+  if (!derive(block, merged)) {
+    entry.cached = MergeEntry::kNothingKnown;
+    return nullptr;
+  }
+  cache_.put(entry, merged);
+  return &cache_.get(entry);
+}
+
+bool MergeMap::derive(const BlockKey& block, MergedBlock& merged) const {
+  bool any = false;
+  SampledBlock sampled;
+  BlockTimes times_ns{};
+  for (const auto& [id, index] : order_) {
+    const MergeSource& source = *sources_[index];
+    if (!source.counts() || !source.sample(block, sampled)) continue;
+    any = true;
+    if (id.self) {
+      overlay_self(sampled, index, merged);
+    } else if (config_.rule == MergeRule::kSafest) {
+      merge_safest(sampled, index, merged);
+    } else {
+      merge_newest(sampled, index, merged, times_ns);
+    }
+  }
+  return any;
+}
+
+}  // namespace warren
