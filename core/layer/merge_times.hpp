@@ -21,6 +21,7 @@ class MergeTimes {
   Revision note(Revision revision, std::int64_t fleet_time_ns);
   // Of the first revision kept that is not before this one, or of the latest noted.
   std::int64_t time_ns(Revision revision) const;
+  std::size_t size() const { return times_.size(); }
 
  private:
   bool keeps(Revision revision) const { return revision.number % stride_ == 0; }
