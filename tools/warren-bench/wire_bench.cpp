@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warren-bench/wire_bench.hpp"
 
+#include <algorithm>
+
 #include "tools/warren-bench/wire_sweep.hpp"
 
 namespace warren {
