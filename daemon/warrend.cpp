@@ -21,7 +21,9 @@ SensorFilters filters_of(const Config& config) {
 }
 
 FleetMapConfig fleet_config(const Config& config) {
-  return {node_id(config.node.name), config.map.resolution_m, config.layer.resolved()};
+  // The config allows no resolution that a layer cannot have.
+  return {node_id(config.node.name), Resolution::from_metres(config.map.resolution_m).value(),
+          config.layer.resolved()};
 }
 
 std::chrono::nanoseconds tick_of(const Config& config) {

@@ -10,21 +10,33 @@ namespace {
 
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
-tl::expected<ControlRequest, std::string> save_order(const control::MapSaveRequest& request) {
-  const std::string& path = request.path();
+// What is wrong with the path that this request names; nothing if nothing is.
+std::optional<std::string> fault_of_path(const std::string& request, const std::string& path) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-  if (path.empty() || path.front() != '/') {
-    return tl::unexpected(std::string("map_save.path must be absolute"));
-  }
-  if (path.size() > kMaxPathBytes) return tl::unexpected(std::string("map_save.path is too long"));
+  if (path.empty() || path.front() != '/') return request + ".path must be absolute";
+  if (path.size() > kMaxPathBytes) return request + ".path is too long";
   if (std::any_of(path.begin(), path.end(), is_control)) {
-    return tl::unexpected(std::string("map_save.path has control characters"));
+    return request + ".path has control characters";
+  }
+  return std::nullopt;
+}
+
+tl::expected<ControlRequest, std::string> save_order(const control::MapSaveRequest& request) {
+  if (auto fault = fault_of_path("map_save", request.path())) {
+    return tl::unexpected(*std::move(fault));
   }
   if (!control::PictureColours_IsValid(request.colours())) {
     return tl::unexpected(std::string("map_save.colours is unknown"));
   }
-  return SaveOrder{
-      path, request.colours() == control::COST ? PictureColours::kCost : PictureColours::kHeight};
+  return SaveOrder{request.path(), request.colours() == control::COST ? PictureColours::kCost
+                                                                      : PictureColours::kHeight};
+}
+
+tl::expected<ControlRequest, std::string> load_order(const control::MapLoadRequest& request) {
+  if (auto fault = fault_of_path("map_load", request.path())) {
+    return tl::unexpected(*std::move(fault));
+  }
+  return LoadOrder{request.path()};
 }
 
 using Doubles = google::protobuf::RepeatedField<double>;
@@ -40,8 +52,12 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   if (request.gravity_map_size() != 0 && request.gravity_map_size() != 3) {
     return tl::unexpected(std::string("ground.gravity_map needs 3 numbers, or none"));
   }
+  if (!control::MapSource_IsValid(request.source())) {
+    return tl::unexpected(std::string("ground.source is unknown"));
+  }
   const Doubles& pose = request.t_map_base();
   GroundQuestion question;
+  question.source = request.source() == control::MERGE ? MapSource::kMerge : MapSource::kSelf;
   question.T_map_base.translation = vector_at(pose, 0);
   question.T_map_base.rotation = Eigen::Quaterniond(pose[6], pose[3], pose[4], pose[5]);
   question.footprint = {request.length_m(), request.width_m()};
@@ -79,6 +95,8 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return save_order(request.map_save());
     case control::Request::kLayerDiff:
       return layer_diff_question(request.layer_diff());
+    case control::Request::kMapLoad:
+      return load_order(request.map_load());
     case control::Request::kGround:
       return ground_question(request.ground());
     default:

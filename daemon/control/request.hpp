@@ -26,8 +26,13 @@ struct SaveOrder {
   std::filesystem::path path;  // absolute, without control characters
   PictureColours colours = PictureColours::kHeight;
 };
+struct LoadOrder {
+  std::filesystem::path path;  // absolute, without control characters
+};
+enum class MapSource : std::uint8_t { kSelf, kMerge };
 // Where somebody wants to stand.
 struct GroundQuestion {
+  MapSource source = MapSource::kSelf;
   Pose T_map_base;
   Footprint footprint;
   std::optional<double> above_m;  // none: GroundQuery's
@@ -41,7 +46,7 @@ struct LayerDiffQuestion {
   Revision from;
 };
 using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder,
-                                    GroundQuestion, LayerDiffQuestion>;
+                                    GroundQuestion, LayerDiffQuestion, LoadOrder>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

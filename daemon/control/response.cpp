@@ -110,6 +110,7 @@ std::string encode_status(const StatusReport& report) {
   fill(report.ingest, status);
   fill(report.mapper, status);
   fill(report.publishing, *status.mutable_publishing());
+  status.set_layers_loaded(report.publishing.layers_loaded);
   return framed(response.SerializeAsString());
 }
 
@@ -151,10 +152,20 @@ std::string encode_layer_diff(const LayerDiff& diff) {
   control::Response response;
   auto& message = *response.mutable_layer_diff();
   fill(diff.id, *message.mutable_layer());
-  message.set_resolution_m(diff.resolution_m);
+  message.set_resolution_um(diff.resolution.micrometres());
   message.set_revision(diff.revision.number);
   for (const auto& packet : diff.packets) message.add_packets(packet.data(), packet.size());
   if (diff.next_key != kOrdinalEnd) message.set_next_key(diff.next_key);
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_map_loaded(const LoadedLayer& layer) {
+  control::Response response;
+  auto& loaded = *response.mutable_map_loaded();
+  fill(layer.id, *loaded.mutable_layer());
+  loaded.set_resolution_m(layer.resolution.metres());
+  loaded.set_voxels_free(layer.voxels_free);
+  loaded.set_voxels_occupied(layer.voxels_occupied);
   return framed(response.SerializeAsString());
 }
 

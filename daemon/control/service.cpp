@@ -7,11 +7,13 @@
 #include <asio/post.hpp>
 
 #include "daemon/config/print.hpp"
+#include "daemon/fleet/earlier_layer.hpp"
 #include "daemon/log.hpp"
 
 namespace warren {
 namespace {
 
+constexpr const char* kBusyWithFiles = "busy with other files; try again";
 constexpr const char* kTooBusy = "too many questions wait; try again";
 
 std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
@@ -26,7 +28,7 @@ std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
 
 ControlService::ControlService(Dependencies dependencies) : parts_(std::move(dependencies)) {}
 
-ControlService::~ControlService() { writer_.join(); }
+ControlService::~ControlService() { files_.join(); }
 
 void ControlService::handle(const ControlRequest& request, const Respond& respond) {
   std::visit([&](const auto& body) { answer(body, respond); }, request);
@@ -44,7 +46,7 @@ void ControlService::answer(const StatusQuestion&, const Respond& respond) {
 
 void ControlService::answer_status(const MapperStatus& mapper, const Respond& respond) {
   const bool asked = parts_.fleet.ask(
-      [this, respond, mapper, guard = asio::make_work_guard(parts_.io)](const FleetMap& fleet) {
+      [this, respond, mapper, guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
         asio::post(parts_.io, [this, respond, mapper, publishing = fleet.report()] {
           respond(encode_status(status(mapper, publishing)));
         });
@@ -65,39 +67,68 @@ void ControlService::answer(const ConfigQuestion&, const Respond& respond) {
 }
 
 void ControlService::answer(const GroundQuestion& question, const Respond& respond) {
-  const bool asked = parts_.mapper.ask_ground(
-      question, [this, respond, guard = asio::make_work_guard(parts_.io)](const auto& result) {
-        asio::post(parts_.io,
-                   [respond, frame = result ? encode_ground(*result)
-                                            : encode_error(result.error())] { respond(frame); });
-      });
+  const auto tell = [this, respond, guard = asio::make_work_guard(parts_.io)](const auto& result) {
+    asio::post(parts_.io,
+               [respond, frame = result ? encode_ground(*result) : encode_error(result.error())] {
+                 respond(frame);
+               });
+  };
+  const bool asked =
+      question.source == MapSource::kSelf
+          ? parts_.mapper.ask_ground(question, tell)
+          : parts_.fleet.ask([question, tell](FleetMap& fleet) { tell(fleet.ground(question)); });
   if (!asked) respond(encode_error(kTooBusy));
 }
 
+void ControlService::answer(const LoadOrder& order, const Respond& respond) {
+  if (pending_files_ >= kMaxPendingFiles) return respond(encode_error(kBusyWithFiles));
+  ++pending_files_;
+  const Respond done = [this, respond](std::string frame) {
+    --pending_files_;
+    respond(std::move(frame));
+  };
+  asio::post(files_,
+             [this, order, done, guard = asio::make_work_guard(parts_.io)] { load(order, done); });
+}
+
+// On the worker.
+void ControlService::load(const LoadOrder& order, const Respond& done) {
+  const auto tell = [this, done, guard = asio::make_work_guard(parts_.io)](std::string frame) {
+    asio::post(parts_.io, [done, frame = std::move(frame)] { done(frame); });
+  };
+  auto layer = read_earlier_layer(order.path);
+  if (!layer) return tell(encode_error(layer.error()));
+  const auto shared = std::make_shared<Replica>(std::move(*layer));
+  const bool asked = parts_.fleet.ask([order, tell, shared](FleetMap& fleet) {
+    const auto loaded = fleet.load(std::move(*shared));
+    if (loaded) log_info("control: loaded " + order.path.string());
+    tell(loaded ? encode_map_loaded(*loaded) : encode_error(loaded.error()));
+  });
+  if (!asked) tell(encode_error(kTooBusy));
+}
+
 void ControlService::answer(const LayerDiffQuestion& question, const Respond& respond) {
-  const bool asked = parts_.fleet.ask(
-      [this, question, respond, guard = asio::make_work_guard(parts_.io)](const FleetMap& fleet) {
-        const auto diff = fleet.diff(question.keys, question.from);
-        asio::post(parts_.io,
-                   [respond, frame = diff ? encode_layer_diff(*diff) : encode_error(kNoMapYet)] {
-                     respond(frame);
-                   });
-      });
+  const bool asked = parts_.fleet.ask([this, question, respond,
+                                       guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
+    const auto diff = fleet.diff(question.keys, question.from);
+    asio::post(parts_.io, [respond, frame = diff ? encode_layer_diff(*diff)
+                                                 : encode_error(kNoMapYet)] { respond(frame); });
+  });
   if (!asked) respond(encode_error(kTooBusy));
 }
 
 void ControlService::answer(const SaveOrder& order, const Respond& respond) {
-  if (pending_saves_ >= kMaxPendingSaves) {
-    return respond(encode_error("busy writing other files; try again"));
+  if (pending_files_ >= kMaxPendingFiles) {
+    return respond(encode_error(kBusyWithFiles));
   }
-  ++pending_saves_;
+  ++pending_files_;
   const Respond done = [this, respond](std::string frame) {
-    --pending_saves_;
+    --pending_files_;
     respond(std::move(frame));
   };
   const bool asked = parts_.mapper.ask_snapshot(
       [this, order, done, guard = asio::make_work_guard(parts_.io)](const auto& snapshot) {
-        asio::post(writer_, [this, order, done, guard, snapshot] { save(order, snapshot, done); });
+        asio::post(files_, [this, order, done, guard, snapshot] { save(order, snapshot, done); });
       });
   if (!asked) done(encode_error(kTooBusy));
 }

@@ -20,11 +20,12 @@ namespace warren {
 using MapSaver = std::function<tl::expected<SaveReport, std::string>(
     const MapSnapshot&, const std::filesystem::path&, PictureColours)>;
 
-// Answers control requests: asks the mapping thread, writes files on a worker of its own.
+// Answers control requests: asks the mapping thread, reads and writes files on a worker of its own.
 class ControlService {
  public:
-  // A snapshot is a copy of the map: memory bounds how many may wait for the disk.
-  static constexpr std::size_t kMaxPendingSaves = 2;
+  // A snapshot is a copy of the map, and a layer being loaded another one: memory bounds how many
+  // may wait for the disk.
+  static constexpr std::size_t kMaxPendingFiles = 2;
 
   struct Dependencies {
     asio::io_context& io;
@@ -37,7 +38,7 @@ class ControlService {
   };
 
   explicit ControlService(Dependencies dependencies);
-  // Waits for files being written.
+  // Waits for files being read or written.
   ~ControlService();
   ControlService(const ControlService&) = delete;
   ControlService& operator=(const ControlService&) = delete;
@@ -52,6 +53,8 @@ class ControlService {
   void answer(const SaveOrder& order, const Respond& respond);
   void answer(const GroundQuestion& question, const Respond& respond);
   void answer(const LayerDiffQuestion& question, const Respond& respond);
+  void answer(const LoadOrder& order, const Respond& respond);
+  void load(const LoadOrder& order, const Respond& done);
   void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,
             const Respond& respond);
   void answer_status(const MapperStatus& mapper, const Respond& respond);
@@ -59,8 +62,8 @@ class ControlService {
 
   Dependencies parts_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  std::size_t pending_saves_ = 0;
-  asio::thread_pool writer_{1};
+  std::size_t pending_files_ = 0;
+  asio::thread_pool files_{1};
 };
 
 }  // namespace warren

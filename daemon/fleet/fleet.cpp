@@ -55,7 +55,7 @@ void Fleet::finish(std::vector<LayerChanges> last, std::function<void()> done) {
   });
 }
 
-bool Fleet::ask(std::function<void(const FleetMap&)> question) {
+bool Fleet::ask(std::function<void(FleetMap&)> question) {
   if (questions_.fetch_add(1) >= kMaxQuestions) {
     --questions_;
     return false;

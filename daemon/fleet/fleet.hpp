@@ -19,8 +19,8 @@ namespace warren {
 
 // The fleet thread: it alone touches the layers. At each tick the mapping thread hands over what
 // changed; at most one hand-over is under way, a tick that comes too early is skipped and counted.
-// The member functions belong to the thread of the io_context; answers are called back on the fleet
-// thread and must be short.
+// The member functions belong to the thread of the io_context, but for ask(), which any may call;
+// questions are asked on the fleet thread and must not wait.
 class Fleet {
  public:
   // Questions that may wait; one more is refused.
@@ -38,7 +38,7 @@ class Fleet {
   void finish(std::vector<LayerChanges> last, std::function<void()> done);
 
   // `question` is called with the map on the fleet thread. False: refused, too many wait.
-  [[nodiscard]] bool ask(std::function<void(const FleetMap&)> question);
+  [[nodiscard]] bool ask(std::function<void(FleetMap&)> question);
   std::uint64_t ticks_late() const { return ticks_late_; }
 
  private:

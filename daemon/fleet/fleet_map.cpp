@@ -1,24 +1,112 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/fleet/fleet_map.hpp"
 
-#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "core/exchange/layer_file.hpp"
+#include "core/layer/merge_view.hpp"
 
 namespace warren {
+namespace {
+
+const char* text_of(MergeResult result) {
+  switch (result) {
+    case MergeResult::kDone:
+    case MergeResult::kUnknownLayer:
+      break;
+    case MergeResult::kKnownLayer:
+      return "this layer is loaded already";
+    case MergeResult::kBadPose:
+      return "the layer lies too far off, or its pose is not rigid";
+    case MergeResult::kBadResolution:
+      return "the layer's voxels are too much coarser or finer than this map's";
+    case MergeResult::kTooManyLayers:
+      return "too many layers are merged already";
+  }
+  return "the layer cannot be merged";
+}
+
+}  // namespace
 
 void FleetMap::tick(std::span<const LayerChanges> changes) {
   ++ticks_;
-  for (const LayerChanges& layer : changes) own_layer(layer.number).tick(layer.blocks);
+  for (const LayerChanges& layer : changes) {
+    OwnLayer& own = own_layer(layer);
+    if (const auto T_fleet_map = layer.T_fleet_map.checked()) own.move(*T_fleet_map);
+    own.tick(layer.blocks);
+    merge_.update_self(layer.number, layer.blocks);
+  }
+  if (changes.empty()) return;
+  gravity_map_ = changes.back().gravity_map;
+  place_layers();
 }
 
 void FleetMap::flush() {
   for (auto& [number, layer] : own_) layer.flush();
 }
 
-OwnLayer& FleetMap::own_layer(std::uint32_t number) {
-  const auto found = own_.find(number);
+OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
+  const auto found = own_.find(changes.number);
   if (found != own_.end()) return found->second;
-  const LayerId id{config_.origin, number, draw_incarnation_()};
-  return own_.try_emplace(number, id, config_.publishing).first->second;
+  const LayerId id{config_.origin, changes.number, draw_incarnation_()};
+  const Eigen::Vector3d origin_map = changes.origin.position_map(config_.resolution.metres());
+  if (own_.empty()) merge_origin_map_ = origin_map;
+  merge_.open_self_layer(changes.number, Eigen::Isometry3d::Identity());
+  return own_.try_emplace(changes.number, id, config_.resolution, origin_map, config_.publishing)
+      .first->second;
+}
+
+Eigen::Isometry3d FleetMap::T_merge_fleet() const {
+  const Eigen::Translation3d T_merge_map(-merge_origin_map_);
+  if (own_.empty()) return Eigen::Isometry3d(T_merge_map);
+  return T_merge_map * own_.rbegin()->second.T_fleet_map().inverse();
+}
+
+void FleetMap::place_layers() {
+  const Eigen::Isometry3d T_merge_fleet = this->T_merge_fleet();
+  const auto differs = [&](const LayerId& id, const Eigen::Isometry3d& T_merge_layer) {
+    const auto [placed, is_new] = T_merge_layer_.try_emplace(id, T_merge_layer);
+    if (!is_new && placed->second.matrix() == T_merge_layer.matrix()) return false;
+    placed->second = T_merge_layer;
+    return true;
+  };
+  for (const auto& [number, layer] : own_) {
+    const Eigen::Isometry3d T_merge_layer = T_merge_fleet * layer.T_fleet_layer();
+    if (differs(layer.layer().id(), T_merge_layer)) merge_.move_self_layer(number, T_merge_layer);
+  }
+  for (const auto& [id, layer] : loaded_) {
+    const Eigen::Isometry3d T_merge_layer = T_merge_fleet * layer->pose().T_fleet_layer();
+    if (differs(id, T_merge_layer)) merge_.move_layer(id, T_merge_layer);
+  }
+}
+
+tl::expected<LoadedLayer, std::string> FleetMap::load(Replica layer) {
+  const LayerId id = layer.id();
+  if (loaded_.size() == kLoadedLayersMax) {
+    return tl::unexpected(std::string("too many layers are loaded already"));
+  }
+  auto kept = std::make_unique<Replica>(std::move(layer));
+  const Eigen::Isometry3d T_merge_layer = T_merge_fleet() * kept->pose().T_fleet_layer();
+  const MergeResult added = merge_.add_layer(id, *kept, kept->resolution().metres(), T_merge_layer);
+  if (added != MergeResult::kDone) return tl::unexpected(std::string(text_of(added)));
+  T_merge_layer_.insert_or_assign(id, T_merge_layer);
+  const Replica& loaded = *loaded_.emplace(id, std::move(kept)).first->second;
+  LoadedLayer report{id, loaded.resolution(), 0, 0};
+  loaded.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock& block) {
+    for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+      const auto occupied = std::popcount(block.codes.occupied()[cell]);
+      report.voxels_occupied += static_cast<std::uint64_t>(occupied);
+      report.voxels_free +=
+          static_cast<std::uint64_t>(std::popcount(block.codes.known()[cell]) - occupied);
+    }
+    return true;
+  });
+  return report;
+}
+
+tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& question) {
+  return answer_ground(MergeView(merge_), merge_origin_map_, gravity_map_, question);
 }
 
 const Replica* FleetMap::current() const {
@@ -28,6 +116,7 @@ const Replica* FleetMap::current() const {
 PublishingReport FleetMap::report() const {
   PublishingReport report;
   report.layers = static_cast<std::uint32_t>(own_.size());
+  report.layers_loaded = static_cast<std::uint32_t>(loaded_.size());
   report.ticks = ticks_;
   for (const auto& [number, layer] : own_) {
     report.traffic += layer.traffic();
@@ -43,7 +132,7 @@ PublishingReport FleetMap::report() const {
 std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) const {
   const Replica* const layer = current();
   if (layer == nullptr) return std::nullopt;
-  LayerDiff diff{layer->id(), config_.resolution_m, layer->holdings().at(0), {}, kOrdinalEnd};
+  LayerDiff diff{layer->id(), layer->resolution(), layer->holdings().at(0), {}, kOrdinalEnd};
   EncodeRequest request{keys, from, config_.publishing.packet_bytes};
   std::size_t bytes = 0;
   while (auto packet = layer->encode(request)) {
@@ -56,6 +145,12 @@ std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) 
     diff.packets.push_back(std::move(packet->bytes));
   }
   return diff;
+}
+
+std::optional<std::vector<std::uint8_t>> FleetMap::encoded_layer() const {
+  const Replica* const layer = current();
+  if (layer == nullptr) return std::nullopt;
+  return encode_layer(*layer);
 }
 
 }  // namespace warren

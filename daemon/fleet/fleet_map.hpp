@@ -8,17 +8,22 @@
 #include <span>
 #include <vector>
 
+#include <tl/expected.hpp>
+
+#include "core/layer/merge_map.hpp"
+#include "daemon/control/request.hpp"
 #include "daemon/fleet/own_layer.hpp"
 #include "daemon/mapper/layered_map.hpp"
 
 namespace warren {
 
-// The own layers as published, in numbers.
+// The layers held, in numbers.
 struct PublishingReport {
   std::uint32_t layers = 0;
   DiffTraffic traffic;  // of all layers
   std::uint64_t blocks_held_back = 0;
   std::size_t memory_bytes = 0;
+  std::uint32_t layers_loaded = 0;
   std::uint64_t ticks = 0;
   std::uint64_t ticks_late = 0;  // the one before was not done yet
   struct Current {
@@ -32,45 +37,75 @@ struct PublishingReport {
 // What a copy of the current own layer lacks.
 struct LayerDiff {
   LayerId id;
-  double resolution_m = 0.0;
+  Resolution resolution;
   Revision revision;
   std::vector<std::vector<std::uint8_t>> packets;
   BlockOrdinal next_key = kOrdinalEnd;  // where to go on; the end: nothing is missing above
 };
 
+// A layer of an earlier mission that was loaded from a file: nobody goes on writing it.
+struct LoadedLayer {
+  LayerId id;
+  Resolution resolution;
+  std::uint64_t voxels_free = 0;
+  std::uint64_t voxels_occupied = 0;
+};
+
 struct FleetMapConfig {
   std::uint32_t origin = 0;  // of the own layers
-  double resolution_m = 0.1;
+  Resolution resolution;
   PublishingConfig publishing;
 };
 
-// All layers that this node holds. One thread: the fleet's.
+// All layers that this node holds, and the merge-map of them, which lies in the map frame of the
+// newest own layer. One thread: the fleet's.
 class FleetMap {
  public:
+  static constexpr std::size_t kLoadedLayersMax = 64;
   // More than one answer may hold; a follower asks again.
   static constexpr std::size_t kDiffBytesMax = 512 * 1024;
 
   // Draws incarnations of layers: 64 random bits each time.
   using DrawIncarnation = std::function<std::uint64_t()>;
   FleetMap(const FleetMapConfig& config, DrawIncarnation draw_incarnation)
-      : config_(config), draw_incarnation_(std::move(draw_incarnation)) {}
+      : config_(config),
+        draw_incarnation_(std::move(draw_incarnation)),
+        merge_({config.resolution.metres()}) {}
 
   // One tick of all own layers.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back.
   void flush();
 
+  // Into the merge-map, where the layer's pose says; or why not, in words for the client.
+  tl::expected<LoadedLayer, std::string> load(Replica layer);
+
+  // The question is about the map frame of the newest own layer, and without gravity. Fills the
+  // merge-map's cache.
+  tl::expected<GroundAnswer, std::string> ground(const GroundQuestion& question);
   PublishingReport report() const;
+  // A copy of the current own layer, with its pose. Nothing before the first scan.
+  std::optional<std::vector<std::uint8_t>> encoded_layer() const;
   // From the revision that the copy holds at `keys` on. Nothing before the first scan.
   std::optional<LayerDiff> diff(const KeyInterval& keys, Revision from) const;
 
  private:
-  OwnLayer& own_layer(std::uint32_t number);
+  OwnLayer& own_layer(const LayerChanges& changes);
   const Replica* current() const;
+  Eigen::Isometry3d T_merge_fleet() const;
+  // Layers that lie elsewhere in the merge-map's frame than before are moved there.
+  void place_layers();
 
   FleetMapConfig config_;
   DrawIncarnation draw_incarnation_;
   std::map<std::uint32_t, OwnLayer> own_;  // the last is the current one
+  std::map<LayerId, std::unique_ptr<Replica>> loaded_;
+  // The merge-map's key (0, 0, 0) in the map frame: the first own layer's, so that what is near it
+  // has keys. Metres, whole blocks.
+  Eigen::Vector3d merge_origin_map_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gravity_map_{0.0, 0.0, -1.0};
+  MergeMap merge_;
+  std::map<LayerId, Eigen::Isometry3d> T_merge_layer_;  // as placed
   std::uint64_t ticks_ = 0;
 };
 

@@ -10,6 +10,17 @@ void OwnLayer::tick(std::span<const CodedBlock> changed) {
   if (ticks_at_rest_ == config_.flush_after_ticks) flush();
 }
 
+void OwnLayer::move(const Eigen::Isometry3d& T_fleet_map) {
+  const std::uint32_t revision = layer_.pose().origin().revision;
+  if (revision > 0 && T_fleet_map.matrix() == T_fleet_map_.matrix()) return;
+  T_fleet_map_ = T_fleet_map;
+  const Eigen::Isometry3d T_fleet_layer = this->T_fleet_layer();
+  layer_.pose().update_origin(
+      {revision + 1,
+       layer_.id().origin,
+       {T_fleet_layer.translation(), Eigen::Quaterniond(T_fleet_layer.linear())}});
+}
+
 void OwnLayer::flush() { publish(publisher_.flush(layer_)); }
 
 void OwnLayer::publish(std::span<const CodedBlock> blocks) {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include <Eigen/Geometry>
+
 #include "core/layer/publishing_config.hpp"
 #include "core/layer/replica.hpp"
 
@@ -27,8 +29,16 @@ struct DiffTraffic {
 // A layer that this node writes, with what it publishes at each tick. One thread.
 class OwnLayer {
  public:
-  OwnLayer(const LayerId& id, const PublishingConfig& config)
-      : config_(config), layer_(id), publisher_(config.rules) {}
+  // `origin_map` is where its key (0, 0, 0) lies in its map frame, metres.
+  OwnLayer(const LayerId& id, Resolution resolution, const Eigen::Vector3d& origin_map,
+           const PublishingConfig& config)
+      : config_(config),
+        T_map_layer_(origin_map),
+        layer_(id, resolution),
+        publisher_(config.rules) {}
+
+  // Its map frame lies there now.
+  void move(const Eigen::Isometry3d& T_fleet_map);
 
   // The exact codes of the blocks that changed since the last tick, none of them twice.
   void tick(std::span<const CodedBlock> changed);
@@ -36,6 +46,8 @@ class OwnLayer {
   void flush();
 
   const Replica& layer() const { return layer_; }
+  const Eigen::Isometry3d& T_fleet_map() const { return T_fleet_map_; }
+  Eigen::Isometry3d T_fleet_layer() const { return T_fleet_map_ * T_map_layer_; }
   const DiffTraffic& traffic() const { return traffic_; }
   std::size_t blocks_held_back() const { return publisher_.blocks_held_back(); }
 
@@ -43,6 +55,8 @@ class OwnLayer {
   void publish(std::span<const CodedBlock> blocks);
 
   PublishingConfig config_;
+  Eigen::Translation3d T_map_layer_;
+  Eigen::Isometry3d T_fleet_map_ = Eigen::Isometry3d::Identity();
   Replica layer_;
   Publisher publisher_;
   DiffTraffic traffic_;

@@ -21,14 +21,6 @@ Eigen::Vector3d corner_map_m(const Layer& layer, const VoxelKey& key, double res
          Eigen::Vector3d(key.x, key.y, key.z) * resolution_m;
 }
 
-// Makes it a unit vector; false when it is no direction.
-bool normalise(Eigen::Vector3d& gravity) {
-  const double length = gravity.stableNorm();
-  if (!std::isfinite(length) || length == 0.0) return false;
-  gravity /= length;
-  return gravity.allFinite();
-}
-
 // Layer and map frame differ by a shift alone.
 Point3f in_layer(const Eigen::Vector3d& direction_map) {
   return {static_cast<float>(direction_map.x()), static_cast<float>(direction_map.y()),
@@ -128,23 +120,8 @@ MapInfoReport LayeredMap::info() const {
 tl::expected<GroundAnswer, std::string> LayeredMap::ground(const GroundQuestion& question) const {
   const Layer* const layer = current();
   if (layer == nullptr) return tl::unexpected(std::string(kNoMapYet));
-  const auto T_map_base = question.T_map_base.checked();
-  if (!T_map_base) return tl::unexpected(std::string("the pose is not rigid or not finite"));
-  GroundQuery query;
-  query.T_layer_base = *T_map_base;
-  query.T_layer_base.translation() -= layer->origin.position_map(config_.resolution_m);
-  query.footprint = question.footprint;
-  query.gravity = question.gravity_map.value_or(layer->gravity_map);
-  query.above_m = question.above_m.value_or(query.above_m);
-  query.below_m = question.below_m.value_or(query.below_m);
-  if (!normalise(query.gravity) || !query.is_valid(config_.resolution_m)) {
-    return tl::unexpected(std::string(
-        "the footprint, reach or gravity make no sense, or the footprint has too many voxels"));
-  }
-  GroundAnswer answer;
-  answer.ground = warren::ground(SelfMapView(layer->voxels), query);
-  answer.validity = validity(answer.ground, question.stair_capable);
-  return answer;
+  return answer_ground(SelfMapView(layer->voxels), layer->origin.position_map(config_.resolution_m),
+                       layer->gravity_map, question);
 }
 
 std::vector<LayerChanges> LayeredMap::take_changes() {
@@ -155,7 +132,7 @@ std::vector<LayerChanges> LayeredMap::take_changes() {
     const bool is_current = i + 1 == layers_.size();
     if (layer.handed_over == now && !is_current) continue;
     changes.push_back({static_cast<std::uint32_t>(i), layer.origin, layer.T_fleet_map,
-                       blocks_changed_since(layer.voxels, layer.handed_over)});
+                       layer.gravity_map, blocks_changed_since(layer.voxels, layer.handed_over)});
     layer.handed_over = now;
   }
   return changes;

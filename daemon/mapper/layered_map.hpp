@@ -11,11 +11,10 @@
 
 #include "core/exchange/map_snapshot.hpp"
 #include "core/layer/coded_block.hpp"
-#include "core/terrain/ground.hpp"
 #include "core/terrain/scan_pipeline.hpp"
 #include "core/voxel/self_map.hpp"
-#include "daemon/control/request.hpp"
 #include "daemon/ingest/messages.hpp"
+#include "daemon/mapper/ground_answer.hpp"
 
 namespace warren {
 
@@ -42,6 +41,7 @@ struct LayerChanges {
   std::uint32_t number = 0;  // of the layer among those of this run, from 0
   LayerOrigin origin;
   Pose T_fleet_map;
+  Eigen::Vector3d gravity_map;  // of the scan taken last
   std::vector<CodedBlock> blocks;
 };
 
@@ -64,11 +64,6 @@ struct MapInfoReport {
     Pose T_fleet_map;
   };
   std::optional<Current> current;  // nothing before the first scan
-};
-
-struct GroundAnswer {
-  GroundReport ground;
-  Validity validity = Validity::kUnknown;
 };
 
 // Layers by frame epoch. An epoch that is met for the first time opens a layer around its first

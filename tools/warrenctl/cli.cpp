@@ -19,6 +19,7 @@ struct Options {
   std::string other_file;
   std::uint32_t origin = 0;
   bool regions = false;
+  int seconds = 1'000'000;
 };
 
 CLI::App* add_with_json(CLI::App& app, const char* name, const char* text, Options& options) {
@@ -51,7 +52,8 @@ CLI::App* add_query(CLI::App& app, Options& options) {
 class LayerCommands {
  public:
   LayerCommands(CLI::App& app, Options& options) : options_(options) {
-    auto* const layer = app.add_subcommand("layer", "Layer files")->require_subcommand(1);
+    auto* const layer =
+        app.add_subcommand("layer", "Layers, of files and of the daemon")->require_subcommand(1);
     export_ = layer->add_subcommand("export", "Write a layer as a tree or a cloud");
     add_files(*export_, "LAYER", "FILE", "Ending in .bt, .ot, .ply or .pcd");
     import_ = layer->add_subcommand("import", "Make a layer of an OctoMap tree");
@@ -64,6 +66,10 @@ class LayerCommands {
     digest_->add_option("LAYER", options.file)->required();
     digest_->add_flag("--regions", options.regions,
                       "And of each region, with the key of its lowest voxel");
+    watch_ = layer->add_subcommand("watch", "The bytes per second of the daemon's diff-maps");
+    watch_->add_option("--seconds", options.seconds, "Stop after so long, or when the daemon does")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
   }
 
   std::optional<CtlCommand> parsed() const {
@@ -74,6 +80,7 @@ class LayerCommands {
     }
     if (diff_->parsed()) return LayerDiffCommand{given.file, given.other_file, given.json};
     if (digest_->parsed()) return LayerDigestCommand{given.file, given.regions};
+    if (watch_->parsed()) return LayerWatchCommand{given.seconds};
     return std::nullopt;
   }
 
@@ -88,6 +95,7 @@ class LayerCommands {
   CLI::App* import_ = nullptr;
   CLI::App* diff_ = nullptr;
   CLI::App* digest_ = nullptr;
+  CLI::App* watch_ = nullptr;
 };
 
 CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {

@@ -44,7 +44,7 @@ struct ExitCommand {  // all is said: help, version, or wrong usage
 using CtlCommand =
     std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
-                 LayerDigestCommand, ExitCommand>;
+                 LayerDigestCommand, LayerWatchCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

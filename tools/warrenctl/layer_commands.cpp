@@ -5,13 +5,13 @@
 #include <iomanip>
 #include <iostream>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/exchange/file_ending.hpp"
 #include "core/exchange/layer_file.hpp"
 #include "core/exchange/map_writer.hpp"
 #include "core/exchange/octomap_reader.hpp"
+#include "core/layer/hash_text.hpp"
 #include "core/layer/layer_difference.hpp"
 
 namespace warren {
@@ -24,16 +24,6 @@ constexpr int kDiffFailure = 2;
 int failure(const std::string& why, int code = kFailure) {
   std::cerr << "warrenctl: " << why << "\n";
   return code;
-}
-
-std::string hex_of(const Hash& hash) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : hash) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
 }
 
 using Row = std::pair<const char*, std::uint64_t>;

@@ -26,6 +26,11 @@ struct LayerDigestCommand {
   bool regions = false;
 };
 
+// Of the running daemon.
+struct LayerWatchCommand {
+  int seconds = 0;
+};
+
 // Each prints its result and returns the exit code: 0, or 1 after an error. A diff returns 0 for
 // equal layers, 1 for others and 2 after an error, as diff(1) does.
 int run(const LayerExportCommand& command);

@@ -8,6 +8,7 @@
 #include "daemon/config_commands.hpp"
 #include "tools/warrenctl/ask.hpp"
 #include "tools/warrenctl/cli.hpp"
+#include "tools/warrenctl/layer_watch.hpp"
 #include "tools/warrenctl/tables.hpp"
 #include "warren/control.pb.h"
 
@@ -89,6 +90,7 @@ struct Executor {
   int operator()(const LayerImportCommand& command) const { return run(command); }
   int operator()(const LayerDiffCommand& command) const { return run(command); }
   int operator()(const LayerDigestCommand& command) const { return run(command); }
+  int operator()(const LayerWatchCommand& command) const { return run(command, socket); }
   int operator()(const ExitCommand& command) const { return command.code; }
 };
 
