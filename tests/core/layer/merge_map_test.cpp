@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/layer/merge_map.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
-#include "tests/core/layer/merge_peer.hpp"
 #include "tests/core/layer/merge_world.hpp"
 
 using namespace warren;
 using test::MergedVoxels;
-using test::MergePeer;
 using test::voxels_of;
 
 namespace {
@@ -144,74 +141,6 @@ TEST_CASE("a layer retracted leaves what it would be had it never been merged") 
   }
 }
 
-TEST_CASE("packets in another order or twice give the same merge-map") {
-  test::Random random(5);
-  Replica origin(kFirst);
-  std::vector<DiffPacket> packets;
-  for (int tick = 0; tick < 6; ++tick) {
-    const Revision before = origin.holdings().at(0);
-    std::vector<CodedBlock> blocks;
-    for (std::int32_t x = 0; x < 6; ++x) {
-      if (test::chance(random, 70)) {
-        blocks.push_back({ordinal_of({x, 0, 0}), CodeBlock(test::random_codes(random))});
-      }
-    }
-    origin.publish(blocks);
-    KeyInterval keys;
-    while (auto packet = origin.encode({keys, before, 700})) {
-      keys.first = packet->claim.keys.end;
-      packets.push_back(std::move(*packet));
-    }
-  }
-  MergePeer straight(kFirst, kResolution_m);
-  straight.catch_up(origin);
-  for (int again = 0; again < 10; ++again) {
-    Replica replica(kFirst);
-    MergeMap map({kResolution_m});
-    REQUIRE(map.add_layer(kFirst, replica, kResolution_m, kHere) == MergeResult::kDone);
-    while (replica.holdings() != origin.holdings()) {
-      std::shuffle(packets.begin(), packets.end(), random);
-      for (const DiffPacket& packet : packets) {
-        replica.apply(kFirst, packet.bytes);
-        for (std::int32_t x = 0; x < 6; ++x) map.block_changed(kFirst, ordinal_of({x, 0, 0}));
-      }
-    }
-    REQUIRE(voxels_of(map) == voxels_of(straight.map()));
-  }
-}
-
-TEST_CASE("a robot that stops has its last part with its peers, however small") {
-  Replica origin(kFirst);
-  MergePeer peer(kFirst, kResolution_m);
-  origin.publish({{block_with(VoxelCode::occupied(3, false))}});
-  peer.catch_up(origin);
-  origin.publish({{block_with(VoxelCode::occupied(4, false))}});
-  peer.catch_up(origin);
-  CHECK(peer.map().voxel(kVoxel).code == VoxelCode::occupied(4, false));
-  CHECK_FALSE(origin.encode({{}, peer.replica().holdings().at(0)}));
-}
-
-TEST_CASE("a robot that restarts goes on with its layer, and its peers follow") {
-  MergePeer peer(kFirst, kResolution_m);
-  std::vector<StoredBlock> stored;
-  Holdings holdings;
-  {
-    Replica origin(kFirst);
-    origin.publish({{block_with(VoxelCode::occupied(3, false))}});
-    origin.publish({{block_with(VoxelCode::occupied(4, false))}});
-    peer.catch_up(origin);
-    holdings = origin.holdings();
-    origin.for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock& found) {
-      stored.push_back({block, found.history.latest(), found.codes});
-      return true;
-    });
-  }
-  Replica restarted(kFirst, holdings, stored);
-  CHECK(restarted.publish({{block_with(VoxelCode::occupied(9, true))}}) == Revision{3});
-  peer.catch_up(restarted);
-  CHECK(peer.map().voxel(kVoxel).code == VoxelCode::occupied(9, true));
-}
-
 TEST_CASE("the newest word counts if so configured, and the lower id of equally new ones") {
   Replica first = layer_with(kFirst, VoxelCode::occupied(9, false));
   const Replica second = layer_with(kSecond, VoxelCode::free());
@@ -230,27 +159,6 @@ TEST_CASE("the newest word counts if so configured, and the lower id of equally 
   map.block_changed(kFirst, kBlock);
   map.note_time(kFirst, {2}, 299);
   CHECK(told() == kSecond);
-}
-
-TEST_CASE("times of many revisions stay few, and do not depend on the order of notes") {
-  std::vector<std::uint32_t> revisions;
-  for (std::uint32_t i = 1; i <= 3000; ++i) revisions.push_back(i);
-  const auto noted = [&] {
-    MergeTimes times;
-    for (const std::uint32_t i : revisions) times.note({i}, std::int64_t{10} * i);
-    return times;
-  };
-  const MergeTimes in_order = noted();
-  test::Random random(3);
-  std::shuffle(revisions.begin(), revisions.end(), random);
-  const MergeTimes shuffled = noted();
-  CHECK(in_order.size() <= MergeTimes::kTimesMax);
-  CHECK(in_order.size() > MergeTimes::kTimesMax / 4);
-  for (std::uint32_t i = 1; i <= 3001; ++i) {
-    REQUIRE(in_order.time_ns({i}) == shuffled.time_ns({i}));
-    REQUIRE(in_order.time_ns({i}) >= std::int64_t{10} * std::min(i, 3000U));
-    REQUIRE(in_order.time_ns({i}) < std::int64_t{10} * i + 320);
-  }
 }
 
 TEST_CASE("a layer that reaches out of the key space is cut there, and counted") {
