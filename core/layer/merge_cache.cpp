@@ -14,16 +14,16 @@ void MergeCache::put(MergeEntry& entry, const MergedBlock& block) {
   blocks_[slot] = block;
   owners_[slot] = &entry;
   asked_for_[slot] = 0;
-  entry.cached = slot + MergeEntry::kFirstCached;
+  entry.set_slot(slot);
 }
 
 void MergeCache::drop(MergeEntry& entry) {
-  if (entry.cached >= MergeEntry::kFirstCached) {
-    const std::uint32_t slot = entry.cached - MergeEntry::kFirstCached;
+  if (entry.has_slot()) {
+    const std::uint32_t slot = entry.slot();
     owners_[slot] = nullptr;
     blocks_.release(slot);
   }
-  entry.cached = MergeEntry::kNotDerived;
+  entry.forget();
 }
 
 void MergeCache::evict_one() {

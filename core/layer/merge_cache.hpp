@@ -12,17 +12,6 @@
 
 namespace warren {
 
-// Small number of a layer in the merge-map, 0 for none. Valid until that layer is removed.
-using SourceIndex = std::uint16_t;
-inline constexpr SourceIndex kNoSource = 0;
-
-// A voxel and whose word it is.
-struct MergedVoxel {
-  VoxelCode code;
-  SourceIndex source = kNoSource;
-  friend bool operator==(const MergedVoxel&, const MergedVoxel&) = default;
-};
-
 // Places in Morton order.
 using MergedBlock = std::array<MergedVoxel, kVoxelsPerBlock>;
 
@@ -33,7 +22,7 @@ class MergeCache {
   explicit MergeCache(std::size_t capacity) : capacity_(capacity == 0 ? 1 : capacity) {}
 
   const MergedBlock& get(const MergeEntry& entry) {
-    const std::uint32_t slot = entry.cached - MergeEntry::kFirstCached;
+    const std::uint32_t slot = entry.slot();
     if (asked_for_[slot] == 0) asked_for_[slot] = 1;
     return blocks_[slot];
   }

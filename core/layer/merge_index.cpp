@@ -61,30 +61,28 @@ std::size_t MergeIndex::memory_bytes() const {
 
 MergeIndex::Region& MergeIndex::region_around(const BlockKey& block) {
   const VoxelKey key = region_key_of(block);
-  const std::uint32_t found = find_region(key);
-  if (found != kNone) return *regions_[found];
+  if (Region* const found = find_region(key)) return *found;
   regions_.push_back(std::make_unique<Region>());
   regions_.back()->key = key;
   ++untouched_regions_;
   if (regions_.size() * 2 > slots_.size()) {
     rebuild(slots_.size() * 2);
   } else {
-    insert(code_of(key), static_cast<std::uint32_t>(regions_.size() - 1));
+    insert(*regions_.back());
   }
   return *regions_.back();
 }
 
-void MergeIndex::insert(std::uint32_t code, std::uint32_t index) {
+void MergeIndex::insert(Region& region) {
+  const std::uint32_t code = code_of(region.key);
   std::size_t at = first_slot(code);
-  while (slots_[at].code != kNone) at = (at + 1) & (slots_.size() - 1);
-  slots_[at] = {code, index};
+  while (slots_[at].region != nullptr) at = (at + 1) & (slots_.size() - 1);
+  slots_[at] = {&region, code};
 }
 
 void MergeIndex::rebuild(std::size_t slots) {
   slots_.assign(slots, Slot{});
-  for (std::uint32_t index = 0; index < regions_.size(); ++index) {
-    insert(code_of(regions_[index]->key), index);
-  }
+  for (const auto& region : regions_) insert(*region);
 }
 
 }  // namespace warren

@@ -6,22 +6,55 @@
 #include <memory>
 #include <vector>
 
+#include "core/layer/voxel_code.hpp"
 #include "core/voxel/block_store.hpp"
 #include "core/voxel/key.hpp"
 #include "core/voxel/morton.hpp"
 
 namespace warren {
 
-// What the merge-map keeps of every block that a layer may reach.
-struct MergeEntry {
-  // Of `cached`: anything above is a slot of the cache, plus kFirstCached.
-  static constexpr std::uint32_t kNotDerived = 0;
-  static constexpr std::uint32_t kNothingKnown = 1;
-  static constexpr std::uint32_t kFirstCached = 2;
+// Small number of a layer in the merge-map, 0 for none. Valid until that layer is removed.
+using SourceIndex = std::uint16_t;
+inline constexpr SourceIndex kNoSource = 0;
 
+// A voxel and whose word it is.
+struct MergedVoxel {
+  VoxelCode code;
+  SourceIndex source = kNoSource;
+  friend bool operator==(const MergedVoxel&, const MergedVoxel&) = default;
+};
+
+// What the merge-map keeps of every block that a layer may reach.
+class MergeEntry {
+ public:
   std::uint64_t changed_at = 0;
-  std::uint32_t cached = kNotDerived;
   std::uint32_t touches = 0;  // blocks of layers that may reach it
+
+  bool is_derived() const { return content_ != 0; }
+  void forget() { content_ = 0; }
+
+  // Most blocks are air that one layer told of: all voxels are the same, and need no memory.
+  bool is_uniform() const { return (content_ & kUniform) != 0; }
+  MergedVoxel uniform() const {
+    const std::uint32_t bits = content_ & 127;
+    const auto source = static_cast<SourceIndex>(content_ >> 7);
+    const auto cost = static_cast<CostCode>(bits >> 2 & 15);
+    if (bits == 0) return {};
+    if (bits == VoxelCode::free().bits()) return {VoxelCode::free(), source};
+    return {VoxelCode::occupied(cost, (bits & 64) != 0), source};
+  }
+  void set_uniform(const MergedVoxel& voxel) {
+    content_ = kUniform | std::uint32_t{voxel.source} << 7 | voxel.code.bits();
+  }
+
+  bool has_slot() const { return is_derived() && !is_uniform(); }
+  // In the cache. Precondition: has_slot().
+  std::uint32_t slot() const { return content_ - 1; }
+  void set_slot(std::uint32_t slot) { content_ = slot + 1; }
+
+ private:
+  static constexpr std::uint32_t kUniform = 0x80000000U;
+  std::uint32_t content_ = 0;
 };
 
 // Finds entries by block key: a hash of regions, each with a dense table. Entries do not move.
@@ -36,9 +69,9 @@ class MergeIndex {
 
   // Precondition: the voxel lies in the key space. Null if its region is not there.
   MergeEntry* find(const VoxelKey& key) const {
-    const std::uint32_t index = find_region(region_of(key));
-    return index == kNone ? nullptr
-                          : &regions_[index]->entries[morton9(key.x >> 3, key.y >> 3, key.z >> 3)];
+    Region* const region = find_region(region_of(key));
+    return region == nullptr ? nullptr
+                             : &region->entries[morton9(key.x >> 3, key.y >> 3, key.z >> 3)];
   }
 
   void touch(const BlockKey& block);
@@ -56,10 +89,9 @@ class MergeIndex {
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   struct Slot {
-    std::uint32_t code = kNone;  // 10 bits per axis
-    std::uint32_t index = kNone;
+    Region* region = nullptr;  // null: empty
+    std::uint32_t code = 0;    // 10 bits per axis
   };
 
   static std::uint32_t code_of(const VoxelKey& region) {
@@ -67,18 +99,19 @@ class MergeIndex {
     return axis(region.x) | axis(region.y) << 10 | axis(region.z) << 20;
   }
   // Linear probing over a table that is at most half full.
-  std::uint32_t find_region(const VoxelKey& region) const {
+  Region* find_region(const VoxelKey& region) const {
     const std::uint32_t code = code_of(region);
-    for (std::size_t at = first_slot(code);; at = (at + 1) & (slots_.size() - 1)) {
-      if (slots_[at].code == code) return slots_[at].index;
-      if (slots_[at].code == kNone) return kNone;
+    std::size_t at = first_slot(code);
+    while (slots_[at].region != nullptr && slots_[at].code != code) {
+      at = (at + 1) & (slots_.size() - 1);
     }
+    return slots_[at].region;
   }
   std::size_t first_slot(std::uint32_t code) const {
     return (code * 0x9E3779B1U >> 7) & (slots_.size() - 1);
   }
   Region& region_around(const BlockKey& block);
-  void insert(std::uint32_t code, std::uint32_t index);
+  void insert(Region& region);
   void rebuild(std::size_t slots);
 
   std::vector<Slot> slots_ = std::vector<Slot>(64);

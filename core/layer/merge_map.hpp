@@ -119,9 +119,8 @@ class MergeMap {
   void begin_change() { ++changes_; }
   void forget_untouched_regions();
 
-  // Null if nothing is known there.
-  const MergedBlock* derived(MergeEntry& entry, const BlockKey& block);
-  bool derive(const BlockKey& block, MergedBlock& merged) const;
+  void derive(MergeEntry& entry, const BlockKey& block);
+  MergedBlock merge(const BlockKey& block) const;
 
   MergeConfig config_;
   Lattice lattice_;

@@ -52,9 +52,10 @@ void overlay_self(const SampledBlock& sampled, SourceIndex source, MergedBlock& 
 MergedVoxel MergeMap::voxel(const VoxelKey& key) {
   if (!KeyBox{}.contains(key)) return {};
   MergeEntry* const entry = index_.find(key);
-  if (entry == nullptr || entry->cached == MergeEntry::kNothingKnown) return {};
-  const MergedBlock* const block = derived(*entry, block_of(key));
-  return block == nullptr ? MergedVoxel{} : (*block)[morton9(key.x, key.y, key.z)];
+  if (entry == nullptr || entry->touches == 0) return {};
+  if (!entry->is_derived()) derive(*entry, block_of(key));
+  if (entry->is_uniform()) return entry->uniform();
+  return cache_.get(*entry)[morton9(key.x, key.y, key.z)];
 }
 
 MergedVoxel MergeMap::voxel(const Point3f& point_merge) {
@@ -84,11 +85,17 @@ void MergeMap::for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit
     for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
       const BlockKey key = block_in_region(region->key, slot);
       if (!intersect(box, first_voxel_of(key), kBlockEdge)) continue;
-      const MergedBlock* const block = derived(region->entries[slot], key);
-      if (block == nullptr) continue;
-      // The visitor may ask for other blocks, which can push this one out.
-      const MergedBlock copy = *block;
-      visit_block(key, copy);
+      MergeEntry& entry = region->entries[slot];
+      if (entry.touches == 0) continue;
+      if (!entry.is_derived()) derive(entry, key);
+      // A copy: the visitor may ask for other blocks, which can push this one out.
+      MergedBlock block;
+      if (entry.is_uniform()) {
+        block.fill(entry.uniform());
+      } else {
+        block = cache_.get(entry);
+      }
+      visit_block(key, block);
     }
   }
 }
@@ -106,26 +113,25 @@ std::optional<std::vector<BlockKey>> MergeMap::blocks_changed_since(std::uint64_
   return changed;
 }
 
-const MergedBlock* MergeMap::derived(MergeEntry& entry, const BlockKey& block) {
-  if (entry.cached >= MergeEntry::kFirstCached) return &cache_.get(entry);
-  if (entry.touches == 0 || entry.cached == MergeEntry::kNothingKnown) return nullptr;
-  MergedBlock merged{};
-  if (!derive(block, merged)) {
-    entry.cached = MergeEntry::kNothingKnown;
-    return nullptr;
+void MergeMap::derive(MergeEntry& entry, const BlockKey& block) {
+  const MergedBlock merged = merge(block);
+  const bool uniform = std::all_of(merged.begin(), merged.end(), [&](const MergedVoxel& voxel) {
+    return voxel == merged.front();
+  });
+  if (uniform) {
+    entry.set_uniform(merged.front());
+  } else {
+    cache_.put(entry, merged);
   }
-  cache_.put(entry, merged);
-  return &cache_.get(entry);
 }
 
-bool MergeMap::derive(const BlockKey& block, MergedBlock& merged) const {
-  bool any = false;
+MergedBlock MergeMap::merge(const BlockKey& block) const {
+  MergedBlock merged{};
   SampledBlock sampled;
   BlockTimes times_ns{};
   for (const auto& [id, index] : order_) {
     const MergeSource& source = *sources_[index];
     if (!source.counts() || !source.sample(block, sampled)) continue;
-    any = true;
     if (id.self) {
       overlay_self(sampled, index, merged);
     } else if (config_.rule == MergeRule::kSafest) {
@@ -134,7 +140,7 @@ bool MergeMap::derive(const BlockKey& block, MergedBlock& merged) const {
       merge_newest(sampled, index, merged, times_ns);
     }
   }
-  return any;
+  return merged;
 }
 
 }  // namespace warren
