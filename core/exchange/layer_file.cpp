@@ -190,12 +190,16 @@ tl::expected<Replica, LayerFileError> decode_layer(std::span<const std::uint8_t>
   return read_content(ByteReader(sealed.subspan(begin)));
 }
 
-WriteResult write_layer(const Replica& replica, const std::filesystem::path& file) {
-  const auto written = write_atomically(file, [&](const std::filesystem::path& temporary) {
-    return write_bytes(encode_layer(replica), temporary);
-  });
+WriteResult write_encoded_layer(std::span<const std::uint8_t> bytes,
+                                const std::filesystem::path& file) {
+  const auto written = write_atomically(
+      file, [&](const std::filesystem::path& temporary) { return write_bytes(bytes, temporary); });
   if (!written) return tl::make_unexpected(written.error());
   return {};
+}
+
+WriteResult write_layer(const Replica& replica, const std::filesystem::path& file) {
+  return write_encoded_layer(encode_layer(replica), file);
 }
 
 tl::expected<Replica, std::string> read_layer(const std::filesystem::path& file) {

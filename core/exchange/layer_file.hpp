@@ -38,6 +38,9 @@ std::vector<std::uint8_t> encode_layer(const Replica& replica);
 // Trusts nothing; bounded in time and memory on any input.
 tl::expected<Replica, LayerFileError> decode_layer(std::span<const std::uint8_t> bytes);
 
+// What encode_layer() made.
+WriteResult write_encoded_layer(std::span<const std::uint8_t> bytes,
+                                const std::filesystem::path& file);
 WriteResult write_layer(const Replica& replica, const std::filesystem::path& file);
 // The error names the file.
 tl::expected<Replica, std::string> read_layer(const std::filesystem::path& file);

@@ -6,6 +6,8 @@
 #include <asio/executor_work_guard.hpp>
 #include <asio/post.hpp>
 
+#include "core/exchange/file_ending.hpp"
+#include "core/exchange/layer_file.hpp"
 #include "daemon/config/print.hpp"
 #include "daemon/fleet/earlier_layer.hpp"
 #include "daemon/log.hpp"
@@ -22,6 +24,14 @@ std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
   if (!saved) return encode_error(saved.error());
   log_info("control: saved the map to " + order.path.string());
   return encode_map_saved(order.path.string(), *saved);
+}
+
+std::string encode_layer_saved(const std::filesystem::path& file,
+                               const std::optional<std::vector<std::uint8_t>>& layer) {
+  if (!layer) return encode_error(kNoMapYet);
+  const auto written = write_encoded_layer(*layer, file);
+  if (!written) return encode_error(written.error());
+  return encode_map_saved(file.string(), {"layer", layer->size(), 0, "as it is published"});
 }
 
 }  // namespace
@@ -82,11 +92,7 @@ void ControlService::answer(const GroundQuestion& question, const Respond& respo
 
 void ControlService::answer(const LoadOrder& order, const Respond& respond) {
   if (pending_files_ >= kMaxPendingFiles) return respond(encode_error(kBusyWithFiles));
-  ++pending_files_;
-  const Respond done = [this, respond](std::string frame) {
-    --pending_files_;
-    respond(std::move(frame));
-  };
+  const Respond done = begin_file_work(respond);
   asio::post(files_,
              [this, order, done, guard = asio::make_work_guard(parts_.io)] { load(order, done); });
 }
@@ -117,15 +123,18 @@ void ControlService::answer(const LayerDiffQuestion& question, const Respond& re
   if (!asked) respond(encode_error(kTooBusy));
 }
 
-void ControlService::answer(const SaveOrder& order, const Respond& respond) {
-  if (pending_files_ >= kMaxPendingFiles) {
-    return respond(encode_error(kBusyWithFiles));
-  }
+ControlService::Respond ControlService::begin_file_work(const Respond& respond) {
   ++pending_files_;
-  const Respond done = [this, respond](std::string frame) {
+  return [this, respond](std::string frame) {
     --pending_files_;
     respond(std::move(frame));
   };
+}
+
+void ControlService::answer(const SaveOrder& order, const Respond& respond) {
+  if (pending_files_ >= kMaxPendingFiles) return respond(encode_error(kBusyWithFiles));
+  const Respond done = begin_file_work(respond);
+  if (lower_case_ending(order.path) == ".layer") return save_layer(order, done);
   const bool asked = parts_.mapper.ask_snapshot(
       [this, order, done, guard = asio::make_work_guard(parts_.io)](const auto& snapshot) {
         asio::post(files_, [this, order, done, guard, snapshot] { save(order, snapshot, done); });
@@ -140,6 +149,16 @@ void ControlService::save(const SaveOrder& order,
   std::string frame =
       snapshot ? encode_saved(order, parts_.save_map, *snapshot) : encode_error(kNoMapYet);
   asio::post(parts_.io, [respond, frame = std::move(frame)] { respond(frame); });
+}
+
+void ControlService::save_layer(const SaveOrder& order, const Respond& done) {
+  const bool asked = parts_.fleet.ask([this, order, done,
+                                       guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
+    asio::post(files_, [this, order, done, guard, layer = fleet.encoded_layer()] {
+      asio::post(parts_.io, [done, frame = encode_layer_saved(order.path, layer)] { done(frame); });
+    });
+  });
+  if (!asked) done(encode_error(kTooBusy));
 }
 
 StatusReport ControlService::status(MapperStatus mapper, PublishingReport publishing) const {

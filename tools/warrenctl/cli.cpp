@@ -44,6 +44,7 @@ CLI::App* add_query(CLI::App& app, Options& options) {
   command->add_option("--width", ground.width_m, "Of the footprint, m")->capture_default_str();
   command->add_option("--above", ground.above_m, "Look from so far above the base (0.3), m");
   command->add_option("--below", ground.below_m, "To so far below it (0.7), m");
+  command->add_flag("--merge", ground.on_merge, "On the merge-map: what others know counts too");
   command->add_flag("--stair-capable", ground.stair_capable, "The robot can climb stairs");
   return command;
 }
@@ -103,10 +104,14 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const map = app.add_subcommand("map", "The map of this robot")->require_subcommand(1);
   auto* const info = add_with_json(*map, "info", "How large it is and where it lies", options);
   auto* const save = map->add_subcommand("save", "Write it to a file");
-  save->add_option("FILE", options.file, "Ending in .bt, .ot, .ply, .pcd or .png")->required();
+  save->add_option("FILE", options.file, "Ending in .bt, .ot, .ply, .pcd, .png or .layer")
+      ->required();
   save->add_option("--colours", options.colours, "Of a .png: height, or cost of the ground")
       ->check(CLI::IsMember({"height", "cost"}))
       ->capture_default_str();
+  auto* const load =
+      map->add_subcommand("load", "Put a layer of an earlier mission into the merge-map");
+  load->add_option("FILE", options.file, "Ending in .layer, .bt or .ot")->required();
   auto* const ground = add_query(app, options);
   auto* const config = app.add_subcommand("config", "Configuration")->require_subcommand(1);
   auto* const check = config->add_subcommand("check", "Tell all faults of a file");
@@ -122,6 +127,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   if (status->parsed()) return StatusCommand{options.json};
   if (info->parsed()) return MapInfoCommand{options.json};
   if (save->parsed()) return MapSaveCommand{options.file, options.colours == "cost"};
+  if (load->parsed()) return MapLoadCommand{options.file};
   if (ground->parsed()) {
     options.ground.json = options.json;
     return options.ground;

@@ -21,7 +21,11 @@ struct MapSaveCommand {
   std::filesystem::path file;
   bool shows_cost = false;  // of a picture
 };
+struct MapLoadCommand {
+  std::filesystem::path file;
+};
 struct GroundCommand {
+  bool on_merge = false;
   std::array<double, 3> position_map_m{};
   double yaw_deg = 0.0;
   std::optional<std::array<double, 4>> rotation;  // qx qy qz qw; none: by yaw
@@ -44,7 +48,7 @@ struct ExitCommand {  // all is said: help, version, or wrong usage
 using CtlCommand =
     std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
-                 LayerDigestCommand, LayerWatchCommand, ExitCommand>;
+                 LayerDigestCommand, LayerWatchCommand, MapLoadCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

@@ -40,6 +40,7 @@ control::Request request_of(const GroundCommand& command) {
   ground.set_length_m(command.length_m);
   ground.set_width_m(command.width_m);
   ground.set_stair_capable(command.stair_capable);
+  ground.set_source(command.on_merge ? control::MERGE : control::SELF);
   if (command.above_m) ground.set_above_m(*command.above_m);
   if (command.below_m) ground.set_below_m(*command.below_m);
   return request;
@@ -69,6 +70,13 @@ struct Executor {
     if (command.shows_cost) request.mutable_map_save()->set_colours(control::COST);
     return ask_and_show(socket, request, [](const control::Response& response) {
       return sentence_of(response.map_saved());
+    });
+  }
+  int operator()(const MapLoadCommand& command) const {
+    control::Request request;
+    request.mutable_map_load()->set_path(std::filesystem::absolute(command.file).string());
+    return ask_and_show(socket, request, [&](const control::Response& response) {
+      return command.file.string() + ": " + sentence_of(response.map_loaded());
     });
   }
   int operator()(const GroundCommand& command) const {

@@ -74,6 +74,13 @@ std::string table_of(const control::Status& status) {
   if (status.replies_dropped() > 0) {
     label(out, "replies not read") << status.replies_dropped() << "\n";
   }
+  const auto& publishing = status.publishing();
+  label(out, "published") << publishing.bytes() << " bytes in " << publishing.packets()
+                          << " packets, " << publishing.ticks() << " ticks ("
+                          << publishing.ticks_late() << " late); revision " << publishing.revision()
+                          << ", " << publishing.blocks_held_back()
+                          << " blocks hold something back\n";
+  label(out, "layers loaded") << status.layers_loaded() << "\n";
   return out.str() + table_of(status.map());
 }
 
@@ -129,6 +136,13 @@ std::string sentence_of(const control::MapSaved& saved) {
   out << saved.path() << ": " << saved.voxels() << " voxels, " << saved.bytes() << " bytes";
   if (!saved.note().empty()) out << " (" << saved.note() << ")";
   out << "\n";
+  return out.str();
+}
+
+std::string sentence_of(const control::MapLoaded& loaded) {
+  std::ostringstream out;
+  out << loaded.voxels_occupied() << " occupied and " << loaded.voxels_free() << " free voxels of "
+      << loaded.resolution_m() << " m are in the merge-map now\n";
   return out.str();
 }
 

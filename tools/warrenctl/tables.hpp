@@ -6,6 +6,7 @@
 namespace warren::control {
 class Ground;
 class MapInfo;
+class MapLoaded;
 class MapSaved;
 class Status;
 }  // namespace warren::control
@@ -21,6 +22,7 @@ std::string table_of(const control::Status& status);
 std::string table_of(const control::MapInfo& info);
 std::string table_of(const control::Ground& ground);
 std::string sentence_of(const control::MapSaved& saved);
+std::string sentence_of(const control::MapLoaded& loaded);
 // Every field, by its name in the .proto; 64-bit integers are strings, as protobuf's JSON has them.
 std::string json_of(const google::protobuf::Message& message);
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
+#include <doctest/doctest.h>
+
+#include "core/exchange/layer_file.hpp"
+#include "core/layer/hash_text.hpp"
+#include "tests/daemon/frames.hpp"
+#include "tests/daemon/running_daemon.hpp"
+#include "tests/daemon/test_client.hpp"
+
+namespace warren {
+namespace {
+
+Config quick_ticks() {
+  Config config;
+  config.layer.tick_s = 0.1;
+  config.layer.flush_after_s = 0.1;
+  return config;
+}
+
+void take_one_scan(const RunningDaemon& daemon) {
+  TestClient client = greeted_client(daemon.ingest_socket());
+  REQUIRE(client.write(scan_frame(1, 1024)));
+  REQUIRE(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
+}
+
+// Asks until the scan's tick and the flush after it have been: bounded by the client's patience.
+control::Publishing published(const RunningDaemon& daemon) {
+  for (int asked = 0; asked < 100'000; ++asked) {
+    const control::Publishing now = daemon.status().publishing();
+    if (now.revision() > 0 && now.blocks_held_back() == 0) return now;
+  }
+  FAIL("nothing was published");
+  return {};
+}
+
+control::Request load_request(const std::string& path) {
+  control::Request request;
+  request.mutable_map_load()->set_path(path);
+  return request;
+}
+
+}  // namespace
+
+TEST_CASE("a follower's copy and a saved layer have the digest that the daemon tells") {
+  RunningDaemon daemon(quick_ticks());
+  take_one_scan(daemon);
+  const control::Publishing publishing = published(daemon);
+  TestClient client(daemon.control_socket());
+  control::Request request;
+  request.mutable_layer_diff()->set_from(0);
+  const auto diff = client.ask(request).layer_diff();
+  CHECK(diff.resolution_um() == 100'000);
+  const LayerId id{diff.layer().origin(), diff.layer().number(), diff.layer().incarnation()};
+  Replica copy(id);
+  for (const std::string& packet : diff.packets()) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(packet.data());
+    CHECK(copy.apply(id, {bytes, packet.size()}) == ApplyResult::kApplied);
+  }
+  CHECK(hex_of(copy.digest().root()) == publishing.digest());
+
+  const std::filesystem::path file = daemon.file("own.layer");
+  request.mutable_map_save()->set_path(file.string());
+  const auto saved = client.ask(request);
+  REQUIRE_MESSAGE(saved.has_map_saved(), saved.error().text());
+  CHECK(saved.map_saved().bytes() == std::filesystem::file_size(file));
+  const auto layer = read_layer(file);
+  REQUIRE(layer.has_value());
+  CHECK(layer->id() == id);
+  CHECK(hex_of(layer->digest().root()) == publishing.digest());
+}
+
+TEST_CASE("a map of an earlier mission is loaded, whatever its format, and counted") {
+  const std::filesystem::path kept = [] {
+    RunningDaemon daemon(quick_ticks());
+    take_one_scan(daemon);
+    published(daemon);
+    for (const char* const name : {"old.layer", "old.bt"}) {
+      control::Request request;
+      request.mutable_map_save()->set_path(daemon.file(name).string());
+      REQUIRE(TestClient(daemon.control_socket()).ask(request).has_map_saved());
+    }
+    const auto directory = std::filesystem::temp_directory_path() / "warren-earlier-mission";
+    std::filesystem::remove_all(directory);
+    std::filesystem::create_directory(directory);
+    for (const char* const name : {"old.layer", "old.bt"}) {
+      std::filesystem::copy(daemon.file(name), directory / name);
+    }
+    return directory;
+  }();
+  RunningDaemon daemon;
+  TestClient client(daemon.control_socket());
+  for (const char* const name : {"old.layer", "old.bt"}) {
+    const auto loaded = client.ask(load_request((kept / name).string()));
+    REQUIRE_MESSAGE(loaded.has_map_loaded(), loaded.error().text());
+    CHECK(loaded.map_loaded().voxels_occupied() > 0);
+    CHECK(loaded.map_loaded().resolution_m() == doctest::Approx(0.1));
+  }
+  CHECK(daemon.status().layers_loaded() == 2);
+  const auto again = client.ask(load_request((kept / "old.layer").string()));
+  CHECK(again.error().text().find("already") != std::string::npos);
+  std::filesystem::remove_all(kept);
+}
+
+TEST_CASE("a load that cannot be says why") {
+  RunningDaemon daemon;
+  TestClient client(daemon.control_socket());
+  const auto error_of = [&](const std::string& path) {
+    return client.ask(load_request(path)).error().text();
+  };
+  CHECK(error_of("old.layer").find("absolute") != std::string::npos);
+  CHECK(error_of("/nowhere/old.layer").find("/nowhere") != std::string::npos);
+  CHECK(error_of("/nowhere/old.ply").find(".layer") != std::string::npos);
+  control::Request past;
+  past.mutable_layer_diff()->set_first_key(std::uint64_t{1} << 39);
+  CHECK(client.ask(past).error().text().find("first_key") != std::string::npos);
+}
+
+}  // namespace warren
