@@ -28,6 +28,14 @@ MapCounts counts_of(const Replica& layer) {
   return counts;
 }
 
+ExportedVoxel voxel_of(const VoxelKey& key, VoxelCode code, SourceNumber source) {
+  static const float free = log_odds_of(SensorModel::octomap_default().minimum);
+  static const float occupied = log_odds_of(SensorModel::octomap_default().maximum);
+  const bool is_occupied = code.state() == VoxelState::kOccupied;
+  return {key, code.state(), is_occupied ? occupied : free,
+          decode_cost(code.cost()).value_or(kNoData), source};
+}
+
 }  // namespace
 
 ExportedMap exported(const MapSnapshot& map) {
@@ -38,26 +46,31 @@ ExportedMap exported(const MapSnapshot& map) {
                 KeyBox{}, [&](const VoxelKey& key, VoxelState state, float log_odds) {
                   const bool occupied = state == VoxelState::kOccupied;
                   const float cost = occupied ? voxels.cost(key).value_or(kNoData) : kNoData;
-                  visit({key, state, log_odds, cost});
+                  visit({key, state, log_odds, cost, 0});
                 });
           }};
 }
 
 ExportedMap exported(const Replica& layer) {
-  const SensorModel model = SensorModel::octomap_default();
-  const float free = log_odds_of(model.minimum);
-  const float occupied = log_odds_of(model.maximum);
-  return {layer.resolution().metres(), model, counts_of(layer),
-          [&layer, free, occupied](const ExportedMap::Visit& visit) {
+  return {layer.resolution().metres(), SensorModel::octomap_default(), counts_of(layer),
+          [&layer](const ExportedMap::Visit& visit) {
             layer.for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock& found) {
               found.codes.for_each_known([&](std::uint32_t place, VoxelCode code) {
-                const bool is_occupied = code.state() == VoxelState::kOccupied;
-                visit({key_of_morton(block << 9 | place), code.state(),
-                       is_occupied ? occupied : free, decode_cost(code.cost()).value_or(kNoData)});
+                visit(voxel_of(key_of_morton(block << 9 | place), code, 0));
               });
               return true;
             });
           }};
+}
+
+ExportedMap exported(const MergedSnapshot& map) {
+  return {map.resolution_m(), SensorModel::octomap_default(), map.counts(),
+          [&map](const ExportedMap::Visit& visit) {
+            map.for_each_known([&](const VoxelKey& key, VoxelCode code, SourceNumber source) {
+              visit(voxel_of(key, code, source));
+            });
+          },
+          map.others()};
 }
 
 }  // namespace warren

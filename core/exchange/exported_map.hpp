@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "core/exchange/map_snapshot.hpp"
+#include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/replica.hpp"
 
 namespace warren {
@@ -14,6 +17,7 @@ struct ExportedVoxel {
   VoxelState state = VoxelState::kUnknown;
   float log_odds = 0.0F;
   float cost = 0.0F;  // of an occupied voxel; NaN without data
+  SourceNumber source = 0;
 };
 
 // What the writers of trees and clouds need of a map: a robot's own, or a layer. Valid as long as
@@ -25,10 +29,13 @@ struct ExportedMap {
   SensorModel sensor_model;
   MapCounts counts;
   std::function<void(const Visit&)> for_each_known;
+  // Whose voxels have the source numbers from 1 on; nothing where voxels have no source.
+  std::optional<std::vector<LayerId>> others = std::nullopt;
 };
 
 ExportedMap exported(const MapSnapshot& map);
-// Occupied and free voxels have the log-odds that OctoMap clamps at by default.
+// Of these two, occupied and free voxels have the log-odds that OctoMap clamps at by default.
 ExportedMap exported(const Replica& layer);
+ExportedMap exported(const MergedSnapshot& map);
 
 }  // namespace warren

@@ -5,13 +5,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
+#include "core/exchange/exported_map.hpp"
 #include "core/exchange/image.hpp"
+#include "core/exchange/map_frame.hpp"
 #include "core/exchange/map_relief.hpp"
+#include "core/exchange/source_legend.hpp"
 #include "core/exchange/splat_view.hpp"
 
 namespace warren {
@@ -24,6 +28,8 @@ constexpr Rectangle kObliquePanel{810, 84, 770, 740};
 constexpr Rectangle kLegend{1180, 862, 300, 14};
 constexpr int kTextHeight = 16;
 constexpr int kSwatchDistance = 340;
+constexpr int kSwatchWidth = 24;  // with the gap
+constexpr Rectangle kSourceLegend{20, 856, 1560, 44};
 
 constexpr Colour kPage{24, 26, 31};
 constexpr Colour kPanel{13, 14, 17};
@@ -56,9 +62,10 @@ Colour height_colour(double share) {
   return {mix(low.red, high.red), mix(low.green, high.green), mix(low.blue, high.blue)};
 }
 
-Colour cost_colour(const std::optional<float>& cost) {
-  if (!cost) return kNoCost;
-  const auto grey = static_cast<std::uint8_t>(std::lround(*cost * 255.0F));
+// NaN without data.
+Colour cost_colour(float cost) {
+  if (std::isnan(cost)) return kNoCost;
+  const auto grey = static_cast<std::uint8_t>(std::lround(cost * 255.0F));
   return {grey, grey, grey};
 }
 
@@ -66,14 +73,21 @@ Eigen::Vector3d centre_of(const VoxelKey& key) {
   return Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5);
 }
 
+struct LegendEntry {
+  Colour colour;
+  std::string meaning;
+};
+
+using StateOf = std::function<VoxelState(const VoxelKey&)>;
+
 // Points from the occupied neighbours to the free ones; zero when they are balanced.
-Eigen::Vector3f normal_of(const SelfMap& map, const VoxelKey& key) {
+Eigen::Vector3f normal_of(const StateOf& state_of, const VoxelKey& key) {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   for (int i = 0; i < 27; ++i) {
     const Eigen::Vector3i step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (step.isZero()) continue;
     const VoxelState state =
-        map.state(VoxelKey{key.x + step.x(), key.y + step.y(), key.z + step.z()});
+        state_of(VoxelKey{key.x + step.x(), key.y + step.y(), key.z + step.z()});
     const float weight = state == VoxelState::kFree       ? 1.0F
                          : state == VoxelState::kOccupied ? -1.0F
                                                           : 0.0F;
@@ -103,8 +117,9 @@ double round_length(double limit) {
 
 class MapPicture {
  public:
-  MapPicture(const MapSnapshot& map, PictureColours colours)
-      : map_(map), colours_(colours), resolution_m_(map.voxels.lattice().resolution_m()) {}
+  MapPicture(const ExportedMap& map, const MapPlace& place, StateOf state_of,
+             PictureColours colours)
+      : map_(map), place_(place), state_of_(std::move(state_of)), colours_(colours) {}
 
   Image draw() {
     draw_title();
@@ -113,22 +128,26 @@ class MapPicture {
     }
     caption(kTopPanel, "from above, without what is 2 m over the ground");
     caption(kObliquePanel, "the same, seen obliquely");
-    const auto bounds = map_.voxels.bounds();
-    if (!bounds) return std::move(image_);
-    const MapRelief relief(map_.voxels, *bounds);
+    if (!place_.bounds) return std::move(image_);
+    const MapRelief relief(map_, *place_.bounds);
     if (!relief.extent()) return std::move(image_);
     draw_views(relief, *relief.extent());
-    draw_legend(*relief.extent());
+    if (shows_source()) {
+      draw_source_legend();
+    } else {
+      draw_legend(*relief.extent());
+    }
     return std::move(image_);
   }
 
  private:
   void draw_title() {
-    const MapCounts counts = map_.voxels.counts();
+    const MapCounts& counts = map_.counts;
     image_.draw_text(20, 18, "warren map", kText, 3);
     image_.draw_text(230, 23,
-                     "resolution " + metres(resolution_m_, 3) + ",  " + grouped(counts.occupied) +
-                         " occupied and " + grouped(counts.free) + " free voxels",
+                     "resolution " + metres(map_.resolution_m, 3) + ",  " +
+                         grouped(counts.occupied) + " occupied and " + grouped(counts.free) +
+                         " free voxels",
                      kFaintText);
   }
 
@@ -145,19 +164,20 @@ class MapPicture {
       top.add_ground(centre_of(key), edge, free_ground());
       oblique.add_ground(centre_of(key), edge, free_ground());
     });
-    map_.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
-      if (state != VoxelState::kOccupied || !relief.is_shown(key)) return;
-      // Light and shade would change what a cost looks like.
+    map_.for_each_known([&](const ExportedVoxel& voxel) {
+      const VoxelKey& key = voxel.key;
+      if (voxel.state != VoxelState::kOccupied || !relief.is_shown(key)) return;
+      // Light and shade would change what a cost or a source looks like.
       const Eigen::Vector3f normal =
-          shows_cost() ? Eigen::Vector3f::Zero() : normal_of(map_.voxels, key);
-      const Colour colour = colour_of(key, extent);
+          colours_ == PictureColours::kHeight ? normal_of(state_of_, key) : Eigen::Vector3f::Zero();
+      const Colour colour = colour_of(voxel, extent);
       top.add_cube(centre_of(key), 1.0, normal, colour);
       oblique.add_cube(centre_of(key), 1.0, normal, colour);
     });
     top.draw_to(image_, kTopPanel.left, kTopPanel.top);
     oblique.draw_to(image_, kObliquePanel.left, kObliquePanel.top);
-    draw_scale(kTopPanel, top.pixels_per_voxel() / resolution_m_, "x right, y up");
-    draw_scale(kObliquePanel, oblique.pixels_per_voxel() / resolution_m_, "left to right only");
+    draw_scale(kTopPanel, top.pixels_per_voxel() / map_.resolution_m, "x right, y up");
+    draw_scale(kObliquePanel, oblique.pixels_per_voxel() / map_.resolution_m, "left to right only");
   }
 
   void draw_scale(const Rectangle& panel, double pixels_per_m, const std::string& note) {
@@ -183,32 +203,68 @@ class MapPicture {
     const std::string high = shows_cost() ? "1" : height(extent.high.z);
     image_.draw_text(kLegend.left - 12 - Image::text_width(low), kLegend.top - 1, low, kText);
     image_.draw_text(kLegend.left + kLegend.width + 12, kLegend.top - 1, high, kText);
-    draw_swatch(kTopPanel.left, free_ground(), "free, ground not seen");
-    if (shows_cost()) draw_swatch(kTopPanel.left + kSwatchDistance, kNoCost, "no data");
+    draw_swatch(kTopPanel.left, kLegend.top, {free_ground(), "free, ground not seen"});
+    if (!shows_cost()) return;
+    draw_swatch(kTopPanel.left + kSwatchDistance, kLegend.top, {kNoCost, "no data"});
   }
 
-  void draw_swatch(int left, const Colour& colour, const char* meaning) {
-    image_.fill({left, kLegend.top, kLegend.height, kLegend.height}, colour);
-    image_.draw_text(left + 24, kLegend.top - 1, meaning, kFaintText);
+  void draw_swatch(int left, int top, const LegendEntry& entry) {
+    image_.fill({left, top, kLegend.height, kLegend.height}, entry.colour);
+    image_.draw_text(left + kSwatchWidth, top - 1, entry.meaning, kFaintText);
   }
 
+  // Two lines, as many names as these hold.
+  void draw_source_legend() {
+    std::vector<LegendEntry> entries = {{free_ground(), "free, ground not seen"},
+                                        {colour_of_source(0), "this robot"}};
+    const std::size_t others = map_.others ? map_.others->size() : 0;
+    const std::size_t named = std::min(others, kSourceColours - 1);
+    for (std::size_t i = 0; i < named; ++i) {
+      entries.push_back(
+          {colour_of_source(static_cast<SourceNumber>(i + 1)), short_name_of((*map_.others)[i])});
+    }
+    if (others > named) {
+      entries.push_back({colour_of_source(static_cast<SourceNumber>(named + 1)),
+                         std::to_string(others - named) + " more"});
+    }
+    draw_entries(entries);
+  }
+
+  void draw_entries(const std::vector<LegendEntry>& entries) {
+    int left = kSourceLegend.left;
+    int top = kSourceLegend.top;
+    for (const LegendEntry& entry : entries) {
+      const int width = kSwatchWidth + Image::text_width(entry.meaning);
+      if (left + width > kSourceLegend.left + kSourceLegend.width) {
+        left = kSourceLegend.left;
+        top += kSourceLegend.height / 2;
+      }
+      if (top >= kSourceLegend.top + kSourceLegend.height) return;
+      draw_swatch(left, top, entry);
+      left += width + kSwatchWidth;
+    }
+  }
+
+  bool shows_source() const { return colours_ == PictureColours::kSource; }
   bool shows_cost() const { return colours_ == PictureColours::kCost; }
   Colour free_ground() const { return shows_cost() ? kCostFreeGround : kFreeGround; }
 
-  Colour colour_of(const VoxelKey& key, const KeyBox& extent) const {
-    if (shows_cost()) return cost_colour(map_.voxels.cost(key));
-    return height_colour(static_cast<double>(key.z - extent.low.z) /
+  Colour colour_of(const ExportedVoxel& voxel, const KeyBox& extent) const {
+    if (shows_cost()) return cost_colour(voxel.cost);
+    if (shows_source()) return colour_of_source(voxel.source);
+    return height_colour(static_cast<double>(voxel.key.z - extent.low.z) /
                          std::max(1, extent.high.z - extent.low.z));
   }
 
   std::string height(std::int32_t key_z) const {
-    const double in_map = static_cast<double>(map_.origin.z + key_z) + 0.5;
-    return metres(in_map * resolution_m_, 1);
+    const double in_map = static_cast<double>(place_.origin.z + key_z) + 0.5;
+    return metres(in_map * map_.resolution_m, 1);
   }
 
-  const MapSnapshot& map_;
+  const ExportedMap& map_;
+  MapPlace place_;
+  StateOf state_of_;
   PictureColours colours_;
-  double resolution_m_;
   Image image_{kWidth, kHeight, kPage};
 };
 
@@ -216,7 +272,16 @@ class MapPicture {
 
 WriteResult write_map_picture(const MapSnapshot& map, const std::filesystem::path& file,
                               PictureColours colours) {
-  return write_png(MapPicture(map, colours).draw(), file);
+  const ExportedMap voxels = exported(map);
+  const auto state_of = [&map](const VoxelKey& key) { return map.voxels.state(key); };
+  return write_png(MapPicture(voxels, place_of(map), state_of, colours).draw(), file);
+}
+
+WriteResult write_map_picture(const MergedSnapshot& map, const std::filesystem::path& file,
+                              PictureColours colours) {
+  const ExportedMap voxels = exported(map);
+  const auto state_of = [&map](const VoxelKey& key) { return map.state(key); };
+  return write_png(MapPicture(voxels, place_of(map), state_of, colours).draw(), file);
 }
 
 }  // namespace warren

@@ -52,8 +52,8 @@ std::int32_t cells_for(std::int32_t voxels, std::int32_t edge) { return (voxels 
 
 }  // namespace
 
-MapRelief::MapRelief(const SelfMap& map, const KeyBox& bounds) : low_(bounds.low) {
-  const double resolution_m = map.lattice().resolution_m();
+MapRelief::MapRelief(const ExportedMap& map, const KeyBox& bounds) : low_(bounds.low) {
+  const double resolution_m = map.resolution_m;
   const std::int32_t size_x = bounds.high.x - bounds.low.x + 1;
   const std::int32_t size_y = bounds.high.y - bounds.low.y + 1;
   edge_ = cells_for(std::max(size_x, size_y), kMaxCells);
@@ -77,11 +77,11 @@ std::size_t MapRelief::cell_index(std::int32_t key_x, std::int32_t key_y) const 
   return raster_index(row, columns_, column);
 }
 
-void MapRelief::find_lowest(const SelfMap& map) {
-  map.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
-    Cell& cell = cells_[cell_index(key.x, key.y)];
-    std::int32_t& lowest = state == VoxelState::kOccupied ? cell.lowest : cell.lowest_free;
-    lowest = std::min(lowest, key.z);
+void MapRelief::find_lowest(const ExportedMap& map) {
+  map.for_each_known([&](const ExportedVoxel& voxel) {
+    Cell& cell = cells_[cell_index(voxel.key.x, voxel.key.y)];
+    std::int32_t& lowest = voxel.state == VoxelState::kOccupied ? cell.lowest : cell.lowest_free;
+    lowest = std::min(lowest, voxel.key.z);
   });
 }
 
@@ -160,11 +160,12 @@ void MapRelief::find_floors() {
   }
 }
 
-void MapRelief::measure_shown(const SelfMap& map) {
+void MapRelief::measure_shown(const ExportedMap& map) {
   std::array<KeyHistogram, 3> axes;
-  map.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
+  map.for_each_known([&](const ExportedVoxel& voxel) {
+    const VoxelKey& key = voxel.key;
     if (!is_shown(key)) return;
-    if (state == VoxelState::kFree) {
+    if (voxel.state == VoxelState::kFree) {
       Cell& cell = cells_[cell_index(key.x, key.y)];
       cell.free = cell.free || key.z > cell.floor;
     } else {

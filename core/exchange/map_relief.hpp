@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/voxel/self_map.hpp"
+#include "core/exchange/exported_map.hpp"
 
 namespace warren {
 
@@ -19,7 +19,7 @@ class MapRelief {
   static constexpr double kCutAboveFloor_m = 2.0;
 
   // Precondition: the map holds known voxels within `bounds`.
-  MapRelief(const SelfMap& map, const KeyBox& bounds);
+  MapRelief(const ExportedMap& map, const KeyBox& bounds);
 
   // False for what lies too far above the ground around it.
   bool is_shown(const VoxelKey& key) const;
@@ -42,7 +42,7 @@ class MapRelief {
   static constexpr std::int32_t kNothing = kKeyMax + 1;
 
   std::size_t cell_index(std::int32_t key_x, std::int32_t key_y) const;
-  void find_lowest(const SelfMap& map);
+  void find_lowest(const ExportedMap& map);
   bool shows_ground(const Cell& cell) const;
   // The ground under every tile of about a metre; kNothing where none was seen.
   std::vector<std::int32_t> floors_of_tiles() const;
@@ -50,7 +50,7 @@ class MapRelief {
   // Where no ground was seen it goes on like the nearest that was.
   void spread(std::vector<std::int32_t>& floors) const;
   void find_floors();
-  void measure_shown(const SelfMap& map);
+  void measure_shown(const ExportedMap& map);
 
   VoxelKey low_;
   std::int32_t edge_;  // of a cell, in voxels

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kMapEndings = ".bt, .ot, .ply, .pcd or .png";
+
 // What a file of some format will hold, and how it is written.
 struct Job {
   std::uint64_t voxels = 0;
@@ -38,19 +40,22 @@ Job cloud_job(ExportedMap map, FileFrame frame, decltype(&write_ply) write) {
           }};
 }
 
-Job picture_job(const MapSnapshot& map, PictureColours colours) {
-  const MapCounts counts = map.voxels.counts();
+template <typename Map>
+Job picture_job(const Map& map, const MapCounts& counts, PictureColours colours) {
   return {counts.free + counts.occupied, "",
           [&map, colours](const fs::path& file) { return write_map_picture(map, file, colours); }};
 }
 
-std::optional<Job> job_for(const std::string& ending, const MapSnapshot& map,
-                           PictureColours colours) {
-  if (ending == ".bt") return tree_job(exported(map), frame_for_tree(map), OctomapFormat::kBinary);
-  if (ending == ".ot") return tree_job(exported(map), frame_for_tree(map), OctomapFormat::kFull);
-  if (ending == ".ply") return cloud_job(exported(map), frame_for_cloud(map), write_ply);
-  if (ending == ".pcd") return cloud_job(exported(map), frame_for_cloud(map), write_pcd);
-  if (ending == ".png") return picture_job(map, colours);
+// Of a robot's own map or a merged one.
+template <typename Map>
+std::optional<Job> job_for(const std::string& ending, const Map& map, PictureColours colours) {
+  const ExportedMap voxels = exported(map);
+  const MapPlace place = place_of(map);
+  if (ending == ".bt") return tree_job(voxels, frame_for_tree(place), OctomapFormat::kBinary);
+  if (ending == ".ot") return tree_job(voxels, frame_for_tree(place), OctomapFormat::kFull);
+  if (ending == ".ply") return cloud_job(voxels, frame_for_cloud(place), write_ply);
+  if (ending == ".pcd") return cloud_job(voxels, frame_for_cloud(place), write_pcd);
+  if (ending == ".png") return picture_job(map, voxels.counts, colours);
   return std::nullopt;
 }
 
@@ -77,7 +82,13 @@ tl::expected<SaveReport, std::string> done(const std::optional<Job>& job, const 
 
 tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map, const fs::path& file,
                                                PictureColours colours) {
-  return done(job_for(lower_case_ending(file), map, colours), file, ".bt, .ot, .ply, .pcd or .png");
+  return done(job_for(lower_case_ending(file), map, colours), file, kMapEndings);
+}
+
+tl::expected<SaveReport, std::string> save_merged_map(const MergedSnapshot& map,
+                                                      const fs::path& file,
+                                                      PictureColours colours) {
+  return done(job_for(lower_case_ending(file), map, colours), file, kMapEndings);
 }
 
 tl::expected<SaveReport, std::string> export_layer(const Replica& layer, const fs::path& file) {

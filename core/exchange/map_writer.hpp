@@ -9,6 +9,7 @@
 
 #include "core/exchange/map_picture.hpp"
 #include "core/exchange/map_snapshot.hpp"
+#include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/replica.hpp"
 
 namespace warren {
@@ -28,6 +29,12 @@ struct SaveReport {
 tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map,
                                                const std::filesystem::path& file,
                                                PictureColours colours = PictureColours::kHeight);
+
+// Likewise the merge-map. Clouds also tell whose word each voxel is: `source`, 0 for this robot and
+// from 1 on for the layers of others, which comments in the header name, and `rgb` by source.
+tl::expected<SaveReport, std::string> save_merged_map(
+    const MergedSnapshot& map, const std::filesystem::path& file,
+    PictureColours colours = PictureColours::kSource);
 
 // Likewise a layer as .bt .ot .ply or .pcd, in the layer frame.
 tl::expected<SaveReport, std::string> export_layer(const Replica& layer,

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstring>
-#include <set>
-
 #include <doctest/doctest.h>
-#include <png.h>
 
 #include "core/exchange/image.hpp"
 #include "core/exchange/map_relief.hpp"
 #include "core/exchange/map_writer.hpp"
+#include "tests/core/exchange/read_picture.hpp"
 #include "tests/core/exchange/temporary_folder.hpp"
 #include "tests/support/simulated_scans.hpp"
 
@@ -15,32 +12,6 @@ using namespace warren;
 using namespace warren::test;
 
 namespace {
-
-struct Picture {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::vector<std::uint8_t> rgb;
-
-  std::size_t colours() const {
-    std::set<std::uint32_t> seen;
-    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-      seen.insert(static_cast<std::uint32_t>(rgb[i] << 16 | rgb[i + 1] << 8 | rgb[i + 2]));
-    }
-    return seen.size();
-  }
-};
-
-Picture read_png(const std::filesystem::path& file) {
-  png_image header;
-  std::memset(&header, 0, sizeof header);
-  header.version = PNG_IMAGE_VERSION;
-  REQUIRE(png_image_begin_read_from_file(&header, file.c_str()) != 0);
-  header.format = PNG_FORMAT_RGB;
-  Picture picture{header.width, header.height, {}};
-  picture.rgb.resize(PNG_IMAGE_SIZE(header));
-  REQUIRE(png_image_finish_read(&header, nullptr, picture.rgb.data(), 0, nullptr) != 0);
-  return picture;
-}
 
 SelfMap room_map(double resolution_m) {
   SelfMap map({resolution_m, SensorModel{}, false});
@@ -97,8 +68,9 @@ TEST_CASE("a picture of costs is black where ground is easy, white where hard, r
 
 TEST_CASE("the ceiling is left out, floor and walls are not") {
   const double resolution_m = 0.1;
-  const SelfMap map = room_map(resolution_m);
-  const MapRelief relief(map, *map.bounds());
+  const MapSnapshot snapshot{LayerOrigin{}, room_map(resolution_m)};
+  const SelfMap& map = snapshot.voxels;
+  const MapRelief relief(exported(snapshot), *map.bounds());
   // The room is 3 m high around z = 0, the floor at -1.5 m.
   CHECK(relief.is_shown(*map.lattice().key_of(1.0, 1.0, -1.5)));
   CHECK(relief.is_shown(*map.lattice().key_of(6.0, 1.0, 0.0)));
