@@ -1,29 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/layer/merge_cache.hpp"
 
+#include <algorithm>
+#include <optional>
+
 namespace warren {
+namespace {
+
+// The one or two layers of a block; nothing if there are more.
+std::optional<std::array<SourceIndex, 2>> two_sources(const MergedBlock& block) {
+  const SourceIndex first = block.front().source;
+  const auto other = std::find_if(block.begin(), block.end(),
+                                  [&](const MergedVoxel& voxel) { return voxel.source != first; });
+  const SourceIndex second = other == block.end() ? first : other->source;
+  const bool no_third = std::all_of(other, block.end(), [&](const MergedVoxel& voxel) {
+    return voxel.source == first || voxel.source == second;
+  });
+  if (!no_third) return std::nullopt;
+  return std::array<SourceIndex, 2>{first, second};
+}
+
+}  // namespace
 
 void MergeCache::put(MergeEntry& entry, const MergedBlock& block) {
   drop(entry);
-  if (blocks_.in_use() == capacity_) evict_one();
-  const std::uint32_t slot = blocks_.allocate();
-  if (slot == owners_.size()) {
-    owners_.push_back(nullptr);
-    asked_for_.push_back(0);
-  }
-  blocks_[slot] = block;
+  if (codes_.in_use() == capacity_) evict_one();
+  const std::uint32_t slot = allocate();
   owners_[slot] = &entry;
   asked_for_[slot] = 0;
-  entry.set_slot(slot);
+  Codes& codes = codes_[slot];
+  std::transform(block.begin(), block.end(), codes.begin(),
+                 [](const MergedVoxel& voxel) { return voxel.code.bits(); });
+  if (const auto sources = two_sources(block)) {
+    for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+      if (block[place].source != sources->front()) codes[place] |= 128;
+    }
+    return entry.set_slot(slot, *sources);
+  }
+  sources_[slot] = std::make_unique<Sources>();
+  std::transform(block.begin(), block.end(), sources_[slot]->begin(),
+                 [](const MergedVoxel& voxel) { return voxel.source; });
+  ++slots_with_sources_;
+  entry.set_slot_of_many(slot);
 }
 
 void MergeCache::drop(MergeEntry& entry) {
   if (entry.has_slot()) {
     const std::uint32_t slot = entry.slot();
+    slots_with_sources_ -= entry.has_many_sources() ? 1 : 0;
+    sources_[slot].reset();
     owners_[slot] = nullptr;
-    blocks_.release(slot);
+    codes_.release(slot);
   }
   entry.forget();
+}
+
+std::uint32_t MergeCache::allocate() {
+  const std::uint32_t slot = codes_.allocate();
+  if (slot == owners_.size()) {
+    owners_.push_back(nullptr);
+    asked_for_.push_back(0);
+    sources_.emplace_back();
+  }
+  return slot;
 }
 
 void MergeCache::evict_one() {
@@ -35,7 +74,8 @@ void MergeCache::evict_one() {
 }
 
 std::size_t MergeCache::memory_bytes() const {
-  return blocks_.memory_bytes() + owners_.capacity() * sizeof(owners_[0]) + asked_for_.capacity();
+  return codes_.memory_bytes() + slots_with_sources_ * sizeof(Sources) + asked_for_.capacity() +
+         owners_.capacity() * sizeof(owners_[0]) + sources_.capacity() * sizeof(sources_[0]);
 }
 
 }  // namespace warren

@@ -13,24 +13,28 @@ VoxelKey region_key_of(const BlockKey& block) { return {block.x >> 3, block.y >>
 
 void MergeIndex::touch(const BlockKey& block) {
   Region& region = region_around(block);
-  if (region.entries[slot_in_region(block)].touches++ > 0) return;
+  if (region.touches[slot_in_region(block)].touches++ > 0) return;
   if (region.touched++ == 0) --untouched_regions_;
 }
 
 void MergeIndex::untouch(const BlockKey& block) {
   Region& region = region_around(block);
-  MergeEntry& entry = region.entries[slot_in_region(block)];
-  assert(entry.touches > 0);
-  if (--entry.touches > 0) return;
+  MergeTouch& touch = region.touches[slot_in_region(block)];
+  assert(touch.touches > 0);
+  if (--touch.touches > 0) return;
   if (--region.touched == 0) ++untouched_regions_;
+}
+
+bool MergeIndex::is_touched(const BlockKey& block) const {
+  const Region* const region = find_region(region_key_of(block));
+  return region != nullptr && region->touches[slot_in_region(block)].touches > 0;
 }
 
 MergeEntry& MergeIndex::mark_changed(const BlockKey& block, std::uint64_t number) {
   Region& region = region_around(block);
   region.changed_at = number;
-  MergeEntry& entry = region.entries[slot_in_region(block)];
-  entry.changed_at = number;
-  return entry;
+  region.touches[slot_in_region(block)].changed_at = number;
+  return region.entries[slot_in_region(block)];
 }
 
 std::size_t MergeIndex::forget_untouched() {

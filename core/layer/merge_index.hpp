@@ -24,37 +24,50 @@ struct MergedVoxel {
   friend bool operator==(const MergedVoxel&, const MergedVoxel&) = default;
 };
 
-// What the merge-map keeps of every block that a layer may reach.
+// What is known of the content of a block, apart from its codes. Eight bytes, since all queries
+// read them.
 class MergeEntry {
  public:
-  std::uint64_t changed_at = 0;
-  std::uint32_t touches = 0;  // blocks of layers that may reach it
-
-  bool is_derived() const { return content_ != 0; }
-  void forget() { content_ = 0; }
+  bool is_derived() const { return kind_ != Kind::kNone; }
+  void forget() { *this = {}; }
 
   // Most blocks are air that one layer told of: all voxels are the same, and need no memory.
-  bool is_uniform() const { return (content_ & kUniform) != 0; }
-  MergedVoxel uniform() const {
-    const std::uint32_t bits = content_ & 127;
-    const auto source = static_cast<SourceIndex>(content_ >> 7);
-    const auto cost = static_cast<CostCode>(bits >> 2 & 15);
-    if (bits == 0) return {};
-    if (bits == VoxelCode::free().bits()) return {VoxelCode::free(), source};
-    return {VoxelCode::occupied(cost, (bits & 64) != 0), source};
-  }
+  bool is_uniform() const { return kind_ == Kind::kUniform; }
+  MergedVoxel uniform() const { return {VoxelCode::from_bits(content_ & 127), sources_[0]}; }
   void set_uniform(const MergedVoxel& voxel) {
-    content_ = kUniform | std::uint32_t{voxel.source} << 7 | voxel.code.bits();
+    *this = {Kind::kUniform, voxel.code.bits(), {voxel.source, kNoSource}};
   }
 
-  bool has_slot() const { return is_derived() && !is_uniform(); }
-  // In the cache. Precondition: has_slot().
-  std::uint32_t slot() const { return content_ - 1; }
-  void set_slot(std::uint32_t slot) { content_ = slot + 1; }
+  // The slot in the cache whose codes are the block's; the eighth bit of each tells which of these
+  // two layers it comes from.
+  bool has_slot() const { return kind_ == Kind::kTwoSources || kind_ == Kind::kManySources; }
+  std::uint32_t slot() const { return content_; }
+  SourceIndex source(std::uint32_t which) const { return sources_[which]; }
+  void set_slot(std::uint32_t slot, const std::array<SourceIndex, 2>& sources) {
+    *this = {Kind::kTwoSources, slot, sources};
+  }
+  // More than two layers: the cache knows which, voxel by voxel.
+  bool has_many_sources() const { return kind_ == Kind::kManySources; }
+  void set_slot_of_many(std::uint32_t slot) { *this = {Kind::kManySources, slot, {}}; }
+
+  MergeEntry() = default;
 
  private:
-  static constexpr std::uint32_t kUniform = 0x80000000U;
-  std::uint32_t content_ = 0;
+  enum class Kind : std::uint32_t { kNone, kUniform, kTwoSources, kManySources };
+  MergeEntry(Kind kind, std::uint32_t content, const std::array<SourceIndex, 2>& sources)
+      : kind_(kind), content_(content & kContentMax), sources_(sources) {}
+
+  static constexpr std::uint32_t kContentMax = 0x3FFFFFFF;
+  Kind kind_ : 2 = Kind::kNone;
+  std::uint32_t content_ : 30 = 0;
+  std::array<SourceIndex, 2> sources_{};
+};
+static_assert(sizeof(MergeEntry) == 8);
+
+// Kept of every block that a layer may reach.
+struct MergeTouch {
+  std::uint64_t changed_at = 0;
+  std::uint32_t touches = 0;  // blocks of layers that may reach it
 };
 
 // Finds entries by block key: a hash of regions, each with a dense table. Entries do not move.
@@ -63,8 +76,9 @@ class MergeIndex {
   struct Region {
     VoxelKey key{};                // voxel key / 64
     std::uint64_t changed_at = 0;  // the latest of its entries
-    std::uint32_t touched = 0;     // entries with touches
+    std::uint32_t touched = 0;     // blocks with touches
     std::array<MergeEntry, kBlocksPerRegion> entries{};
+    std::array<MergeTouch, kBlocksPerRegion> touches{};
   };
 
   // Precondition: the voxel lies in the key space. Null if its region is not there.
@@ -77,6 +91,7 @@ class MergeIndex {
   void touch(const BlockKey& block);
   // Precondition: it was touched.
   void untouch(const BlockKey& block);
+  bool is_touched(const BlockKey& block) const;
   // Precondition: the region is there.
   MergeEntry& mark_changed(const BlockKey& block, std::uint64_t number);
 

@@ -23,7 +23,7 @@ namespace warren {
 struct MergeConfig {
   double resolution_m = 0.1;
   MergeRule rule = MergeRule::kSafest;
-  std::size_t cached_blocks = 32768;  // 2 kB each
+  std::size_t cached_blocks = 32768;  // 0.5 kB each, 1.5 where more than two layers meet
 };
 
 enum class MergeResult : std::uint8_t {
@@ -79,8 +79,13 @@ class MergeMap {
 
   // Where several layers of others agree, the one with the lowest id is told, of those whose state
   // and cost won.
-  MergedVoxel voxel(const VoxelKey& key);
-  MergedVoxel voxel(const Point3f& point_merge);
+  MergedVoxel voxel(const VoxelKey& key) {
+    return KeyBox{}.contains(key) ? voxel_within(key) : MergedVoxel{};
+  }
+  MergedVoxel voxel(const Point3f& point_merge) {
+    const auto key = lattice_.key_of(point_merge);
+    return key ? voxel_within(*key) : MergedVoxel{};
+  }
   // Precondition: the index came with a voxel, and its layer was not removed since.
   const MergeSourceId& source(SourceIndex index) const { return sources_[index]->id(); }
 
@@ -119,6 +124,17 @@ class MergeMap {
   void begin_change() { ++changes_; }
   void forget_untouched_regions();
 
+  // Precondition: the voxel lies in the key space.
+  MergedVoxel voxel_within(const VoxelKey& key) {
+    MergeEntry* const entry = index_.find(key);
+    if (entry == nullptr) return {};
+    if (!entry->is_derived()) derive(*entry, block_of(key));
+    return voxel_of(*entry, morton9(key.x, key.y, key.z));
+  }
+  // Precondition: the entry is derived.
+  MergedVoxel voxel_of(const MergeEntry& entry, std::uint32_t place) {
+    return entry.is_uniform() ? entry.uniform() : cache_.voxel(entry, place);
+  }
   void derive(MergeEntry& entry, const BlockKey& block);
   MergedBlock merge(const BlockKey& block) const;
 

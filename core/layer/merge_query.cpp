@@ -49,20 +49,6 @@ void overlay_self(const SampledBlock& sampled, SourceIndex source, MergedBlock& 
 
 }  // namespace
 
-MergedVoxel MergeMap::voxel(const VoxelKey& key) {
-  if (!KeyBox{}.contains(key)) return {};
-  MergeEntry* const entry = index_.find(key);
-  if (entry == nullptr || entry->touches == 0) return {};
-  if (!entry->is_derived()) derive(*entry, block_of(key));
-  if (entry->is_uniform()) return entry->uniform();
-  return cache_.get(*entry)[morton9(key.x, key.y, key.z)];
-}
-
-MergedVoxel MergeMap::voxel(const Point3f& point_merge) {
-  const auto key = lattice_.key_of(point_merge);
-  return key ? voxel(*key) : MergedVoxel{};
-}
-
 std::optional<RayHit> MergeMap::cast_ray(const RayQuery& query) {
   return warren::cast_ray(lattice_, query,
                           [this](const VoxelKey& key) { return voxel(key).code.state(); });
@@ -86,14 +72,12 @@ void MergeMap::for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit
       const BlockKey key = block_in_region(region->key, slot);
       if (!intersect(box, first_voxel_of(key), kBlockEdge)) continue;
       MergeEntry& entry = region->entries[slot];
-      if (entry.touches == 0) continue;
+      if (region->touches[slot].touches == 0) continue;
       if (!entry.is_derived()) derive(entry, key);
       // A copy: the visitor may ask for other blocks, which can push this one out.
       MergedBlock block;
-      if (entry.is_uniform()) {
-        block.fill(entry.uniform());
-      } else {
-        block = cache_.get(entry);
+      for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
+        block[place] = voxel_of(entry, place);
       }
       visit_block(key, block);
     }
@@ -106,7 +90,7 @@ std::optional<std::vector<BlockKey>> MergeMap::blocks_changed_since(std::uint64_
   for (const MergeIndex::Region* const region : index_.regions_in_order()) {
     if (region->changed_at <= cursor) continue;
     for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
-      if (region->entries[slot].changed_at <= cursor) continue;
+      if (region->touches[slot].changed_at <= cursor) continue;
       changed.push_back(block_in_region(region->key, slot));
     }
   }
@@ -114,6 +98,7 @@ std::optional<std::vector<BlockKey>> MergeMap::blocks_changed_since(std::uint64_
 }
 
 void MergeMap::derive(MergeEntry& entry, const BlockKey& block) {
+  if (!index_.is_touched(block)) return entry.set_uniform({});
   const MergedBlock merged = merge(block);
   const bool uniform = std::all_of(merged.begin(), merged.end(), [&](const MergedVoxel& voxel) {
     return voxel == merged.front();

@@ -22,6 +22,11 @@ class VoxelCode {
     return VoxelCode{static_cast<std::uint8_t>(2U | (cost & 15U) << 2 | (stair ? 64U : 0U))};
   }
 
+  // Precondition: they are some code's bits().
+  static constexpr VoxelCode from_bits(std::uint32_t bits) {
+    return VoxelCode{static_cast<std::uint8_t>(bits)};
+  }
+
   constexpr VoxelState state() const { return static_cast<VoxelState>(bits_ & 3); }
   constexpr CostCode cost() const { return bits_ >> 2 & 15; }
   constexpr bool stair() const { return (bits_ & 64) != 0; }

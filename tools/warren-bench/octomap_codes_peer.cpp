@@ -14,6 +14,11 @@ octomap::OcTreeKey octomap_key(const VoxelKey& key) {
           static_cast<octomap::key_type>(key.z - kKeyMin)};
 }
 
+VoxelState state_of(const octomap::OcTree& tree, const octomap::OcTreeNode* node) {
+  if (node == nullptr) return VoxelState::kUnknown;
+  return tree.isNodeOccupied(node) ? VoxelState::kOccupied : VoxelState::kFree;
+}
+
 }  // namespace
 
 struct OctomapCodesPeer::Tree : octomap::OcTree {
@@ -42,9 +47,14 @@ void OctomapCodesPeer::finish() {
 }
 
 VoxelState OctomapCodesPeer::search(const VoxelKey& key) const {
-  const octomap::OcTreeNode* const node = tree_->search(octomap_key(key));
-  if (node == nullptr) return VoxelState::kUnknown;
-  return tree_->isNodeOccupied(node) ? VoxelState::kOccupied : VoxelState::kFree;
+  return state_of(*tree_, tree_->search(octomap_key(key)));
+}
+
+void OctomapCodesPeer::search(std::span<const Point3f> points, std::span<VoxelState> states) const {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point3f& point = points[i];
+    states[i] = state_of(*tree_, tree_->search(octomap::point3d(point.x, point.y, point.z)));
+  }
 }
 
 }  // namespace warren

@@ -20,6 +20,8 @@ class OctomapCodesPeer {
   void finish();
 
   VoxelState search(const VoxelKey& key) const;
+  // The states at these points. Precondition: as many as there are points.
+  void search(std::span<const Point3f> points, std::span<VoxelState> states) const;
 
  private:
   struct Tree;

@@ -76,6 +76,11 @@ tl::expected<WireResult, std::string> bench_wire(const ScanSequence& sequence,
   const auto catch_ups = bench_catch_up(tape, origin, options);
   if (!catch_ups) return not_equal("catch-up");
   result.catch_ups = *catch_ups;
+  const auto query = bench_query(origin, options.map.resolution_m);
+  if (!query) {
+    return tl::make_unexpected(std::string("queries: the merge-map is not what OctoMap holds"));
+  }
+  result.query = *query;
   if (options.growth_copies > 1) result.growth = bench_growth(sequence, options);
   return result;
 }

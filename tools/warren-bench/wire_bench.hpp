@@ -10,6 +10,7 @@
 #include "tools/warren-bench/wire_catchup.hpp"
 #include "tools/warren-bench/wire_growth.hpp"
 #include "tools/warren-bench/wire_live.hpp"
+#include "tools/warren-bench/wire_query.hpp"
 
 namespace warren {
 
@@ -29,6 +30,7 @@ struct WireResult {
   double memory_origin = 0.0;
   double memory_copy = 0.0;
   double memory_bulk_copy = 0.0;
+  QueryCost query;
   std::optional<WireGrowth> growth;
 
   double per_changed_voxel(std::uint64_t bytes) const {
