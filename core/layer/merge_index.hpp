@@ -24,10 +24,12 @@ struct MergedVoxel {
   friend bool operator==(const MergedVoxel&, const MergedVoxel&) = default;
 };
 
-// What is known of the content of a block, apart from its codes. Eight bytes, since all queries
-// read them.
+// What a query needs of a block apart from its codes, in few bytes: this is what random points miss
+// the processor's cache for.
 class MergeEntry {
  public:
+  MergeEntry() = default;
+
   bool is_derived() const { return kind_ != Kind::kNone; }
   void forget() { *this = {}; }
 
@@ -50,14 +52,12 @@ class MergeEntry {
   bool has_many_sources() const { return kind_ == Kind::kManySources; }
   void set_slot_of_many(std::uint32_t slot) { *this = {Kind::kManySources, slot, {}}; }
 
-  MergeEntry() = default;
-
  private:
   enum class Kind : std::uint32_t { kNone, kUniform, kTwoSources, kManySources };
   MergeEntry(Kind kind, std::uint32_t content, const std::array<SourceIndex, 2>& sources)
       : kind_(kind), content_(content & kContentMax), sources_(sources) {}
 
-  static constexpr std::uint32_t kContentMax = 0x3FFFFFFF;
+  static constexpr std::uint32_t kContentMax = 0x3FFFFFFF;  // more than a cache can hold
   Kind kind_ : 2 = Kind::kNone;
   std::uint32_t content_ : 30 = 0;
   std::array<SourceIndex, 2> sources_{};

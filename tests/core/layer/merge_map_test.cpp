@@ -2,6 +2,7 @@
 #include "core/layer/merge_map.hpp"
 
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -210,6 +211,45 @@ TEST_CASE("poses, resolutions and layers that make no sense are refused and chan
   CHECK(map.move_layer(kFirst, stretched) == MergeResult::kBadPose);
   CHECK(map.block_changed(kFirst, kOrdinalEnd - 1) == MergeResult::kDone);
   CHECK(voxels_of(map).size() == 1);
+}
+
+TEST_CASE("a voxel that was asked for before any layer reached it is known once one does") {
+  const Replica layer = layer_with(kFirst, VoxelCode::free());
+  MergeMap map({kResolution_m});
+  CHECK(map.voxel(kVoxel) == MergedVoxel{});
+  REQUIRE(map.add_layer(kFirst, layer, kResolution_m, moved_by(0.8, 0.0, 0.0)) ==
+          MergeResult::kDone);
+  CHECK(map.voxel(kVoxel) == MergedVoxel{});  // in the layer's region now
+  for (int i = 0; i < 2; ++i) {
+    REQUIRE(map.move_layer(kFirst, kHere) == MergeResult::kDone);
+    CHECK(map.voxel(kVoxel).code == VoxelCode::free());
+    REQUIRE(map.retract_layer(kFirst) == MergeResult::kDone);
+    CHECK(map.voxel(kVoxel) == MergedVoxel{});
+    REQUIRE(map.restore_layer(kFirst) == MergeResult::kDone);
+    CHECK(map.voxel(kVoxel).code == VoxelCode::free());
+  }
+}
+
+TEST_CASE("where more than two layers make a block each voxel still tells of its own") {
+  MergeMap map({kResolution_m});
+  std::vector<std::unique_ptr<Replica>> layers;
+  for (std::uint32_t x = 0; x < kBlockEdge; ++x) {
+    const VoxelKey key{static_cast<std::int32_t>(x), 0, 0};
+    layers.push_back(std::make_unique<Replica>(LayerId{x + 1, 1, 1}));
+    layers.back()->publish(
+        {{block_with(VoxelCode::occupied(static_cast<CostCode>(x), false), key)}});
+    REQUIRE(map.add_layer(layers.back()->id(), *layers.back(), kResolution_m, kHere) ==
+            MergeResult::kDone);
+    for (std::uint32_t other = 0; other <= x; ++other) {
+      const MergedVoxel voxel = map.voxel(VoxelKey{static_cast<std::int32_t>(other), 0, 0});
+      CHECK(voxel.code == VoxelCode::occupied(static_cast<CostCode>(other), false));
+      CHECK(map.source(voxel.source).layer == layers[other]->id());
+    }
+    CHECK(map.voxel(VoxelKey{0, 1, 0}) == MergedVoxel{});
+  }
+  for (std::uint32_t x = 1; x < kBlockEdge; ++x) map.retract_layer(layers[x]->id());
+  const MergedVoxel voxel = map.voxel(VoxelKey{0, 0, 0});
+  CHECK(map.source(voxel.source).layer == layers[0]->id());
 }
 
 TEST_CASE("a layer that wanders for long leaves a bounded trace, and old cursors are told so") {

@@ -89,7 +89,7 @@ TEST_CASE("a robot that restarts goes on with its layer, and its peers follow") 
       return true;
     });
   }
-  Replica restarted(kFirst, holdings, stored);
+  Replica restarted(kFirst, {}, holdings, stored);
   CHECK(restarted.publish({{block_with(VoxelCode::occupied(9, true))}}) == Revision{3});
   peer.catch_up(restarted);
   CHECK(peer.map().voxel(kVoxel).code == VoxelCode::occupied(9, true));

@@ -125,6 +125,19 @@ TEST_CASE("sameness of blocks is seen from both sides") {
   CHECK_FALSE(same_blocks(empty, full));
 }
 
+TEST_CASE("queries are measured where the merge-map and OctoMap agree, and not without a map") {
+  const WireTape tape = random_tape(2);
+  Replica layer(kLayer);
+  CHECK_FALSE(bench_query(layer, 0.15));
+  for (const auto& tick : tape.ticks) layer.publish(tick);
+  const auto cost = bench_query(layer, 0.15);
+  REQUIRE(cost);
+  CHECK(cost->ours_ns > 0.0);
+  CHECK(cost->octomap_ns > 0.0);
+  CHECK(cost->known_share > 0.0);
+  CHECK(cost->known_share <= 1.0);
+}
+
 TEST_CASE("OctoMap as a receiver knows what the diff-maps told, in both modes") {
   const std::vector<ChangedVoxel> voxels = {{morton_of({-3, 0, 5}), VoxelCode::free()},
                                             {morton_of({-2, 0, 5}), VoxelCode::occupied(7, false)}};
