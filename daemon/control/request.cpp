@@ -21,6 +21,15 @@ std::optional<std::string> fault_of_path(const std::string& request, const std::
   return std::nullopt;
 }
 
+MapSource source_of(control::MapSource source) {
+  return source == control::MERGE ? MapSource::kMerge : MapSource::kSelf;
+}
+
+PictureColours colours_of(control::PictureColours colours) {
+  if (colours == control::COST) return PictureColours::kCost;
+  return colours == control::ROBOT ? PictureColours::kSource : PictureColours::kHeight;
+}
+
 tl::expected<ControlRequest, std::string> save_order(const control::MapSaveRequest& request) {
   if (auto fault = fault_of_path("map_save", request.path())) {
     return tl::unexpected(*std::move(fault));
@@ -28,8 +37,14 @@ tl::expected<ControlRequest, std::string> save_order(const control::MapSaveReque
   if (!control::PictureColours_IsValid(request.colours())) {
     return tl::unexpected(std::string("map_save.colours is unknown"));
   }
-  return SaveOrder{request.path(), request.colours() == control::COST ? PictureColours::kCost
-                                                                      : PictureColours::kHeight};
+  if (!control::MapSource_IsValid(request.source())) {
+    return tl::unexpected(std::string("map_save.source is unknown"));
+  }
+  const MapSource source = source_of(request.source());
+  if (request.colours() == control::ROBOT && source == MapSource::kSelf) {
+    return tl::unexpected(std::string("map_save.colours ROBOT is of source MERGE alone"));
+  }
+  return SaveOrder{request.path(), colours_of(request.colours()), source};
 }
 
 tl::expected<ControlRequest, std::string> load_order(const control::MapLoadRequest& request) {
@@ -57,7 +72,7 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   }
   const Doubles& pose = request.t_map_base();
   GroundQuestion question;
-  question.source = request.source() == control::MERGE ? MapSource::kMerge : MapSource::kSelf;
+  question.source = source_of(request.source());
   question.T_map_base.translation = vector_at(pose, 0);
   question.T_map_base.rotation = Eigen::Quaterniond(pose[6], pose[3], pose[4], pose[5]);
   question.footprint = {request.length_m(), request.width_m()};

@@ -22,14 +22,15 @@ inline constexpr std::size_t kMaxControlFrameBytes = 1048576;
 struct StatusQuestion {};
 struct MapInfoQuestion {};
 struct ConfigQuestion {};
+enum class MapSource : std::uint8_t { kSelf, kMerge };
 struct SaveOrder {
   std::filesystem::path path;  // absolute, without control characters
   PictureColours colours = PictureColours::kHeight;
+  MapSource source = MapSource::kSelf;
 };
 struct LoadOrder {
   std::filesystem::path path;  // absolute, without control characters
 };
-enum class MapSource : std::uint8_t { kSelf, kMerge };
 // Where somebody wants to stand.
 struct GroundQuestion {
   MapSource source = MapSource::kSelf;

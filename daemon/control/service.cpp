@@ -26,6 +26,12 @@ std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
   return encode_map_saved(order.path.string(), *saved);
 }
 
+std::string encode_merged_saved(const SaveOrder& order, const MergedSnapshot* merged) {
+  if (merged == nullptr) return encode_error(kNoMapYet);
+  const auto saved = save_merged_map(*merged, order.path, order.colours);
+  return saved ? encode_map_saved(order.path.string(), *saved) : encode_error(saved.error());
+}
+
 std::string encode_layer_saved(const std::filesystem::path& file,
                                const std::optional<std::vector<std::uint8_t>>& layer) {
   if (!layer) return encode_error(kNoMapYet);
@@ -134,6 +140,7 @@ ControlService::Respond ControlService::begin_file_work(const Respond& respond) 
 void ControlService::answer(const SaveOrder& order, const Respond& respond) {
   if (pending_files_ >= kMaxPendingFiles) return respond(encode_error(kBusyWithFiles));
   const Respond done = begin_file_work(respond);
+  if (order.source == MapSource::kMerge) return save_merged(order, done);
   if (lower_case_ending(order.path) == ".layer") return save_layer(order, done);
   const bool asked = parts_.mapper.ask_snapshot(
       [this, order, done, guard = asio::make_work_guard(parts_.io)](const auto& snapshot) {
@@ -158,6 +165,17 @@ void ControlService::save_layer(const SaveOrder& order, const Respond& done) {
       asio::post(parts_.io, [done, frame = encode_layer_saved(order.path, layer)] { done(frame); });
     });
   });
+  if (!asked) done(encode_error(kTooBusy));
+}
+
+void ControlService::save_merged(const SaveOrder& order, const Respond& done) {
+  const bool asked = parts_.fleet.ask(
+      [this, order, done, guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
+        asio::post(files_, [this, order, done, guard, merged = fleet.merged_snapshot()] {
+          asio::post(parts_.io,
+                     [done, frame = encode_merged_saved(order, merged.get())] { done(frame); });
+        });
+      });
   if (!asked) done(encode_error(kTooBusy));
 }
 

@@ -56,6 +56,7 @@ class ControlService {
   void answer(const LoadOrder& order, const Respond& respond);
   void load(const LoadOrder& order, const Respond& done);
   void save_layer(const SaveOrder& order, const Respond& done);
+  void save_merged(const SaveOrder& order, const Respond& done);
   Respond begin_file_work(const Respond& respond);
   void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,
             const Respond& respond);

@@ -109,6 +109,11 @@ tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& q
   return answer_ground(MergeView(merge_), merge_origin_map_, gravity_map_, question);
 }
 
+std::shared_ptr<const MergedSnapshot> FleetMap::merged_snapshot() {
+  if (own_.empty() && loaded_.empty()) return nullptr;
+  return std::make_shared<const MergedSnapshot>(snapshot_of(merge_, merge_origin_map_));
+}
+
 const Replica* FleetMap::current() const {
   return own_.empty() ? nullptr : &own_.rbegin()->second.layer();
 }

@@ -10,6 +10,7 @@
 
 #include <tl/expected.hpp>
 
+#include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/merge_map.hpp"
 #include "daemon/control/request.hpp"
 #include "daemon/fleet/own_layer.hpp"
@@ -84,6 +85,8 @@ class FleetMap {
   // merge-map's cache.
   tl::expected<GroundAnswer, std::string> ground(const GroundQuestion& question);
   PublishingReport report() const;
+  // All of the merge-map, for a file. Nothing while no layer is held.
+  std::shared_ptr<const MergedSnapshot> merged_snapshot();
   // A copy of the current own layer, with its pose. Nothing before the first scan.
   std::optional<std::vector<std::uint8_t>> encoded_layer() const;
   // From the revision that the copy holds at `keys` on. Nothing before the first scan.

@@ -103,6 +103,31 @@ TEST_CASE("a map of an earlier mission is loaded, whatever its format, and count
   std::filesystem::remove_all(kept);
 }
 
+TEST_CASE("the merge-map is saved in every format but as a layer, by robot if so asked") {
+  RunningDaemon daemon(quick_ticks());
+  TestClient client(daemon.control_socket());
+  control::Request request;
+  auto& order = *request.mutable_map_save();
+  order.set_path(daemon.file("merged.ply").string());
+  order.set_source(control::MERGE);
+  CHECK(client.ask(request).error().text().find("no map yet") != std::string::npos);
+  take_one_scan(daemon);
+  published(daemon);
+  order.set_colours(control::ROBOT);
+  for (const char* const ending : {"bt", "ot", "ply", "pcd", "png"}) {
+    const std::filesystem::path file = daemon.file(std::string("merged.") + ending);
+    order.set_path(file.string());
+    const auto response = client.ask(request);
+    REQUIRE_MESSAGE(response.has_map_saved(), response.error().text());
+    CHECK(response.map_saved().bytes() == std::filesystem::file_size(file));
+    CHECK(response.map_saved().voxels() > 0);
+  }
+  order.set_path(daemon.file("merged.layer").string());
+  CHECK_FALSE(client.ask(request).error().text().empty());
+  order.set_source(control::SELF);
+  CHECK(client.ask(request).error().text().find("ROBOT") != std::string::npos);
+}
+
 TEST_CASE("a load that cannot be says why") {
   RunningDaemon daemon;
   TestClient client(daemon.control_socket());

@@ -13,6 +13,7 @@ constexpr int kUsageError = 2;
 struct Options {
   std::string socket = "/run/warren/control.sock";
   bool json = false;
+  bool merge = false;
   std::string file;
   std::string colours = "height";
   GroundCommand ground;
@@ -106,9 +107,10 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const save = map->add_subcommand("save", "Write it to a file");
   save->add_option("FILE", options.file, "Ending in .bt, .ot, .ply, .pcd, .png or .layer")
       ->required();
-  save->add_option("--colours", options.colours, "Of a .png: height, or cost of the ground")
-      ->check(CLI::IsMember({"height", "cost"}))
+  save->add_option("--colours", options.colours, "Of a .png: height, cost of the ground, or robot")
+      ->check(CLI::IsMember({"height", "cost", "robot"}))
       ->capture_default_str();
+  save->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
   auto* const load =
       map->add_subcommand("load", "Put a layer of an earlier mission into the merge-map");
   load->add_option("FILE", options.file, "Ending in .layer, .bt or .ot")->required();
@@ -126,7 +128,9 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   }
   if (status->parsed()) return StatusCommand{options.json};
   if (info->parsed()) return MapInfoCommand{options.json};
-  if (save->parsed()) return MapSaveCommand{options.file, options.colours == "cost"};
+  if (save->parsed()) {
+    return MapSaveCommand{options.file, options.colours, options.merge};
+  }
   if (load->parsed()) return MapLoadCommand{options.file};
   if (ground->parsed()) {
     options.ground.json = options.json;

@@ -19,7 +19,8 @@ struct MapInfoCommand {
 };
 struct MapSaveCommand {
   std::filesystem::path file;
-  bool shows_cost = false;  // of a picture
+  std::string colours = "height";  // of a picture: height, cost, robot
+  bool of_merge = false;
 };
 struct MapLoadCommand {
   std::filesystem::path file;

@@ -46,6 +46,11 @@ control::Request request_of(const GroundCommand& command) {
   return request;
 }
 
+control::PictureColours colours_of(const std::string& name) {
+  if (name == "cost") return control::COST;
+  return name == "robot" ? control::ROBOT : control::HEIGHT;
+}
+
 struct Executor {
   const std::string& socket;
 
@@ -67,7 +72,8 @@ struct Executor {
     control::Request request;
     // The daemon's working directory is another one.
     request.mutable_map_save()->set_path(std::filesystem::absolute(command.file).string());
-    if (command.shows_cost) request.mutable_map_save()->set_colours(control::COST);
+    request.mutable_map_save()->set_colours(colours_of(command.colours));
+    if (command.of_merge) request.mutable_map_save()->set_source(control::MERGE);
     return ask_and_show(socket, request, [](const control::Response& response) {
       return sentence_of(response.map_saved());
     });
