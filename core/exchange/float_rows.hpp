@@ -18,8 +18,7 @@ namespace warren {
 enum class ColumnType : std::uint8_t {
   kFloat,
   kCount,   // an unsigned integer
-  kColour,  // packed_colour(); the field "rgb" of PCL in PCD files, red, green and blue in PLY
-            // files
+  kColour,  // packed_colour(); in PLY files three bytes, red, green and blue
 };
 
 // A table of 32-bit values, row after row, with a name per column: what PCD and PLY files hold.
