@@ -220,6 +220,35 @@ case_layers_go_to_files_and_back() {
   grep -q '\.ply or \.pcd' "$work/err" || fail "$(cat "$work/err")"
 }
 
+case_the_layer_is_watched_and_an_earlier_map_loaded() {
+  local ctl=("$bin/warrenctl" --socket "$work/control.sock")
+  scene 10
+  start_daemon
+  "${ctl[@]}" layer watch --seconds 60 >"$work/watched" &
+  local watch=$!
+  replay --rate max >/dev/null || fail "replay: $(cat "$work/replay.err")"
+  for _ in $(seq 300); do
+    "${ctl[@]}" status --json | grep -q '"revision": 0,' || break
+    sleep 0.1
+  done
+  "${ctl[@]}" map save "$work/old.layer" >/dev/null
+  "${ctl[@]}" map save "$work/old.bt" >/dev/null
+  sleep 2 # until the watch has asked once more
+  stop_daemon
+  wait "$watch" || fail "watch ended with $?: $(cat "$work/watched")"
+  grep -qE 'in all [0-9]+ s: diff-maps [0-9.]+ kB/s, .* \([0-9.]+ times\)' "$work/watched" ||
+    fail "watched: $(cat "$work/watched")"
+  start_daemon
+  "${ctl[@]}" map load "$work/old.bt" >"$work/loaded"
+  grep -qE '[1-9][0-9]* occupied' "$work/loaded" || fail "$(cat "$work/loaded")"
+  "${ctl[@]}" map load "$work/old.layer" >/dev/null
+  if "${ctl[@]}" map load "$work/old.layer" 2>"$work/err"; then fail "loaded twice"; fi
+  grep -q already "$work/err" || fail "$(cat "$work/err")"
+  "${ctl[@]}" map save "$work/merged.ply" --merge --colours robot >/dev/null
+  grep -aq 'comment source 1' "$work/merged.ply" || fail "no sources in the cloud"
+  stop_daemon
+}
+
 case_a_world_is_drawn_and_its_radio_told() {
   "$bin/warren-sim" render --world room --out "$work/pictures" 2>/dev/null
   for picture in outside cutaway plan robot; do
