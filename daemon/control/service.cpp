@@ -33,11 +33,12 @@ std::string encode_merged_saved(const SaveOrder& order, const MergedSnapshot* me
 }
 
 std::string encode_layer_saved(const std::filesystem::path& file,
-                               const std::optional<std::vector<std::uint8_t>>& layer) {
+                               const std::optional<EncodedLayer>& layer) {
   if (!layer) return encode_error(kNoMapYet);
-  const auto written = write_encoded_layer(*layer, file);
+  const auto written = write_encoded_layer(layer->bytes, file);
   if (!written) return encode_error(written.error());
-  return encode_map_saved(file.string(), {"layer", layer->size(), 0, "as it is published"});
+  return encode_map_saved(file.string(),
+                          {"layer", layer->bytes.size(), layer->voxels, "as it is published"});
 }
 
 }  // namespace

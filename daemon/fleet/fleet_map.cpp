@@ -27,6 +27,25 @@ const char* text_of(MergeResult result) {
   return "the layer cannot be merged";
 }
 
+struct VoxelCounts {
+  std::uint64_t free = 0;
+  std::uint64_t occupied = 0;
+};
+
+VoxelCounts count_voxels(const Replica& layer) {
+  VoxelCounts counts;
+  layer.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock& block) {
+    for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+      const auto occupied = std::popcount(block.codes.occupied()[cell]);
+      counts.occupied += static_cast<std::uint64_t>(occupied);
+      counts.free +=
+          static_cast<std::uint64_t>(std::popcount(block.codes.known()[cell]) - occupied);
+    }
+    return true;
+  });
+  return counts;
+}
+
 }  // namespace
 
 void FleetMap::tick(std::span<const LayerChanges> changes) {
@@ -92,17 +111,8 @@ tl::expected<LoadedLayer, std::string> FleetMap::load(Replica layer) {
   if (added != MergeResult::kDone) return tl::unexpected(std::string(text_of(added)));
   T_merge_layer_.insert_or_assign(id, T_merge_layer);
   const Replica& loaded = *loaded_.emplace(id, std::move(kept)).first->second;
-  LoadedLayer report{id, loaded.resolution(), 0, 0};
-  loaded.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock& block) {
-    for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
-      const auto occupied = std::popcount(block.codes.occupied()[cell]);
-      report.voxels_occupied += static_cast<std::uint64_t>(occupied);
-      report.voxels_free +=
-          static_cast<std::uint64_t>(std::popcount(block.codes.known()[cell]) - occupied);
-    }
-    return true;
-  });
-  return report;
+  const auto [free, occupied] = count_voxels(loaded);
+  return LoadedLayer{id, loaded.resolution(), free, occupied};
 }
 
 tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& question) {
@@ -152,10 +162,11 @@ std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) 
   return diff;
 }
 
-std::optional<std::vector<std::uint8_t>> FleetMap::encoded_layer() const {
+std::optional<EncodedLayer> FleetMap::encoded_layer() const {
   const Replica* const layer = current();
   if (layer == nullptr) return std::nullopt;
-  return encode_layer(*layer);
+  const auto [free, occupied] = count_voxels(*layer);
+  return EncodedLayer{encode_layer(*layer), free + occupied};
 }
 
 }  // namespace warren

@@ -52,6 +52,12 @@ struct LoadedLayer {
   std::uint64_t voxels_occupied = 0;
 };
 
+// A layer as a .layer file holds it.
+struct EncodedLayer {
+  std::vector<std::uint8_t> bytes;
+  std::uint64_t voxels = 0;  // known
+};
+
 struct FleetMapConfig {
   std::uint32_t origin = 0;  // of the own layers
   Resolution resolution;
@@ -88,7 +94,7 @@ class FleetMap {
   // All of the merge-map, for a file. Nothing while no layer is held.
   std::shared_ptr<const MergedSnapshot> merged_snapshot();
   // A copy of the current own layer, with its pose. Nothing before the first scan.
-  std::optional<std::vector<std::uint8_t>> encoded_layer() const;
+  std::optional<EncodedLayer> encoded_layer() const;
   // From the revision that the copy holds at `keys` on. Nothing before the first scan.
   std::optional<LayerDiff> diff(const KeyInterval& keys, Revision from) const;
 

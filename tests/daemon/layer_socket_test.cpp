@@ -65,6 +65,7 @@ TEST_CASE("a follower's copy and a saved layer have the digest that the daemon t
   const auto saved = client.ask(request);
   REQUIRE_MESSAGE(saved.has_map_saved(), saved.error().text());
   CHECK(saved.map_saved().bytes() == std::filesystem::file_size(file));
+  CHECK(saved.map_saved().voxels() > 0);
   const auto layer = read_layer(file);
   REQUIRE(layer.has_value());
   CHECK(layer->id() == id);
