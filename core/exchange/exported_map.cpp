@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/exchange/exported_map.hpp"
 
-#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "core/layer/layer_counts.hpp"
 
 namespace warren {
 namespace {
@@ -12,20 +13,6 @@ constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 float log_odds_of(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
-}
-
-MapCounts counts_of(const Replica& layer) {
-  MapCounts counts;
-  layer.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock& block) {
-    for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
-      const auto occupied = static_cast<unsigned>(std::popcount(block.codes.occupied()[cell]));
-      counts.occupied += occupied;
-      counts.free += static_cast<unsigned>(std::popcount(block.codes.known()[cell])) - occupied;
-    }
-    counts.blocks += block.codes.empty() ? 0 : 1;
-    return true;
-  });
-  return counts;
 }
 
 ExportedVoxel voxel_of(const VoxelKey& key, VoxelCode code, SourceNumber source) {

@@ -41,12 +41,11 @@ bool take_poses(LayerPose& pose, const WrittenPose& origin, const WrittenPose& c
 }
 
 void add_packets(ByteWriter& out, const Replica& replica) {
-  KeyInterval keys;
-  while (const auto packet = replica.encode({keys, {}, kLayerFilePacketBytesMax})) {
-    out.add(static_cast<std::uint32_t>(packet->bytes.size()));
-    out.add(packet->bytes);
-    keys.first = packet->claim.keys.end;
-  }
+  for_each_packet(replica, {{}, {}, kLayerFilePacketBytesMax}, [&](const DiffPacket& packet) {
+    out.add(static_cast<std::uint32_t>(packet.bytes.size()));
+    out.add(packet.bytes);
+    return true;
+  });
   out.add(std::uint32_t{0});
 }
 

@@ -4,13 +4,6 @@
 #include <algorithm>
 
 namespace warren {
-namespace {
-
-// Ground up to here may be driven on (paper section 2.5: no cost of 20 % or more).
-constexpr float kEasyCost = 0.20F;
-
-}  // namespace
-
 CodeMix::CodeMix(VoxelCode code)
     : code_(code),
       uniform_(true),
@@ -50,7 +43,7 @@ CodeMix& CodeMix::operator|=(const CodeMix& other) {
 
 VoxelCode CodeMix::worst() const {
   if (occupied_) {
-    const bool hides_nothing = !without_data_ || !is_safe(highest_, kEasyCost);
+    const bool hides_nothing = !without_data_ || !is_safe(highest_, kSafeMostCost);
     return VoxelCode::occupied(hides_nothing ? highest_ : kNoCostData, stair_);
   }
   return unknown_ || !any_ ? VoxelCode{} : VoxelCode::free();

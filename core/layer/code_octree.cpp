@@ -102,8 +102,7 @@ CodeNode CodeOctree::node(const VoxelKey& key, int level) const {
     const KeyInterval keys{block, block + blocks_in_cube(level)};
     return node_of(morton, level, mix_of(mixes_of(*layer_, keys), level));
   }
-  const LayerBlock* const found = layer_->find(block);
-  const BlockCodes codes = found != nullptr ? found->codes.unpack() : BlockCodes{};
+  const BlockCodes codes = layer_->codes(block).unpack();
   const auto first = static_cast<std::uint32_t>(morton & (kVoxelsPerBlock - 1));
   return node_of(morton, level, CodeMix::of(codes, first, 1U << 3 * level));
 }

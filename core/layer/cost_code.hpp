@@ -16,6 +16,10 @@ inline constexpr CostCode kNoCostData = 0;
 inline constexpr std::array<int, 15> kCostEdges_percent = {5,  10, 15, 20, 25, 30, 35, 40,
                                                            50, 60, 70, 80, 90, 95, 100};
 
+// The planner's thresholds (paper, section 2.5): of the mean under a footprint, and of any of it.
+inline constexpr float kSafeMeanCost = 0.10F;
+inline constexpr float kSafeMostCost = 0.20F;
+
 // The code of the lowest bin whose upper edge the cost does not exceed.
 CostCode encode_cost(const std::optional<FusedCost>& cost);
 

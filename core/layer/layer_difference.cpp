@@ -20,11 +20,6 @@ void add(LayerDifference& difference, VoxelCode a, VoxelCode b) {
   }
 }
 
-BlockCodes codes_of(const Replica& layer, BlockOrdinal block) {
-  const LayerBlock* const found = layer.find(block);
-  return found != nullptr ? found->codes.unpack() : BlockCodes{};
-}
-
 }  // namespace
 
 LayerDifference difference_of(const Replica& a, const Replica& b) {
@@ -32,8 +27,8 @@ LayerDifference difference_of(const Replica& a, const Replica& b) {
   LayerDifference difference;
   for (const RegionOrdinal region : differing(a.digest().regions(), b.digest().regions())) {
     for (const BlockOrdinal block : differing(a.digest_blocks(region), b.digest_blocks(region))) {
-      const BlockCodes codes_a = codes_of(a, block);
-      const BlockCodes codes_b = codes_of(b, block);
+      const BlockCodes codes_a = a.codes(block).unpack();
+      const BlockCodes codes_b = b.codes(block).unpack();
       for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
         add(difference, codes_a.at(place), codes_b.at(place));
       }

@@ -8,9 +8,6 @@
 namespace warren {
 namespace {
 
-constexpr float kSafeMeanCost = 0.10F;  // of the ground under a footprint, paper section 2.5
-constexpr float kSafeMostCost = 0.20F;  // of any voxel of it
-
 // The 2x2x2 cubes of a cell, each one byte of it, all of whose voxels are in the mask.
 std::uint64_t whole_cubes(std::uint64_t cell) {
   std::uint64_t whole = 0;
@@ -110,15 +107,14 @@ std::vector<CodedBlock> blocks_changed_since(const SelfMap& map, std::uint32_t c
 std::vector<CodedBlock> Publisher::tick(std::span<const CodedBlock> now, const Replica& published) {
   std::vector<CodedBlock> changed;
   for (const auto& [block, exact] : now) {
-    const LayerBlock* const held = published.find(block);
-    const CodeBlock before = held != nullptr ? held->codes : CodeBlock{};
+    const CodeBlock before = published.codes(block);
     Shown shown = shown_of(exact, before, rules_);
     if (shown.holds_back) {
       held_back_.insert_or_assign(block, exact);
     } else {
       held_back_.erase(block);
     }
-    if (!(shown.codes == before)) changed.push_back({block, std::move(shown.codes)});
+    if (shown.codes != before) changed.push_back({block, std::move(shown.codes)});
   }
   return changed;
 }
@@ -126,8 +122,7 @@ std::vector<CodedBlock> Publisher::tick(std::span<const CodedBlock> now, const R
 std::vector<CodedBlock> Publisher::flush(const Replica& published) {
   std::vector<CodedBlock> changed;
   for (auto& [block, exact] : std::exchange(held_back_, {})) {
-    const LayerBlock* const held = published.find(block);
-    if (held == nullptr || !(held->codes == exact)) changed.push_back({block, exact});
+    if (published.codes(block) != exact) changed.push_back({block, exact});
   }
   return changed;
 }

@@ -146,8 +146,7 @@ Revision Replica::publish(std::span<const CodedBlock> blocks) {
   const Revision next{now.number + 1};
   std::vector<BlockOrdinal> changed;
   for (const CodedBlock& published : blocks) {
-    const LayerBlock* const held = blocks_.find(published.block);
-    const CodeBlock before = held != nullptr ? held->codes : CodeBlock{};
+    const CodeBlock before = codes(published.block);
     if (before == published.codes) continue;
     const VoxelMask differ = places_that_differ(before.unpack(), published.codes.unpack());
     change(published.block, [&](LayerBlock& block) {

@@ -65,6 +65,11 @@ class Replica {
   std::vector<LayerDigest::Entry> digest_blocks(RegionOrdinal region) const;
   // Null if nothing was ever known of it. Valid until the next call of any function here.
   const LayerBlock* find(BlockOrdinal block) const { return blocks_.find(block); }
+  // A copy of a block's codes; empty if nothing is known of it.
+  CodeBlock codes(BlockOrdinal block) const {
+    const LayerBlock* const found = find(block);
+    return found != nullptr ? found->codes : CodeBlock{};
+  }
   // Calls visit(BlockOrdinal, const LayerBlock&) in key order for the blocks changed after `from`,
   // as long as it returns true; emptied ones are among them. `visit` may read this replica.
   template <typename Visit>
@@ -126,5 +131,14 @@ class Replica {
   std::array<std::uint64_t, kApplyResults> apply_counts_{};
   std::function<void(BlockOrdinal)> listener_;
 };
+
+// Calls visit(DiffPacket&) for all packets of a request in key order, as long as it returns true.
+template <typename Visit>
+void for_each_packet(const Replica& sender, EncodeRequest request, Visit&& visit) {
+  while (auto packet = sender.encode(request)) {
+    request.keys.first = packet->claim.keys.end;
+    if (!visit(*packet)) return;
+  }
+}
 
 }  // namespace warren

@@ -50,6 +50,9 @@ struct Pose {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // metres
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
+  static Pose of(const Eigen::Isometry3d& isometry) {
+    return {isometry.translation(), Eigen::Quaterniond(isometry.linear())};
+  }
   // The isometry; nothing when a number is not finite or the quaternion's norm is off 1 by more
   // than 1 % (smaller errors are normalised away).
   std::optional<Eigen::Isometry3d> checked() const;

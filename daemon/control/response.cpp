@@ -164,8 +164,8 @@ std::string encode_map_loaded(const LoadedLayer& layer) {
   auto& loaded = *response.mutable_map_loaded();
   fill(layer.id, *loaded.mutable_layer());
   loaded.set_resolution_m(layer.resolution.metres());
-  loaded.set_voxels_free(layer.voxels_free);
-  loaded.set_voxels_occupied(layer.voxels_occupied);
+  loaded.set_voxels_free(layer.voxels.free);
+  loaded.set_voxels_occupied(layer.voxels.occupied);
   return framed(response.SerializeAsString());
 }
 

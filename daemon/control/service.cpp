@@ -18,27 +18,24 @@ namespace {
 constexpr const char* kBusyWithFiles = "busy with other files; try again";
 constexpr const char* kTooBusy = "too many questions wait; try again";
 
-std::string encode_saved(const SaveOrder& order, const MapSaver& save_map,
-                         const MapSnapshot& snapshot) {
-  const auto saved = save_map(snapshot, order.path, order.colours);
+using Saved = tl::expected<SaveReport, std::string>;
+
+std::string encode_saved(const std::filesystem::path& file, const Saved& saved) {
   if (!saved) return encode_error(saved.error());
-  log_info("control: saved the map to " + order.path.string());
-  return encode_map_saved(order.path.string(), *saved);
+  log_info("control: saved " + file.string());
+  return encode_map_saved(file.string(), *saved);
 }
 
-std::string encode_merged_saved(const SaveOrder& order, const MergedSnapshot* merged) {
-  if (merged == nullptr) return encode_error(kNoMapYet);
-  const auto saved = save_merged_map(*merged, order.path, order.colours);
-  return saved ? encode_map_saved(order.path.string(), *saved) : encode_error(saved.error());
+Saved save_merged_to(const SaveOrder& order, const MergedSnapshot* merged) {
+  if (merged == nullptr) return tl::unexpected(std::string(kNoMapYet));
+  return save_merged_map(*merged, order.path, order.colours);
 }
 
-std::string encode_layer_saved(const std::filesystem::path& file,
-                               const std::optional<EncodedLayer>& layer) {
-  if (!layer) return encode_error(kNoMapYet);
-  const auto written = write_encoded_layer(layer->bytes, file);
-  if (!written) return encode_error(written.error());
-  return encode_map_saved(file.string(),
-                          {"layer", layer->bytes.size(), layer->voxels, "as it is published"});
+Saved save_layer_to(const SaveOrder& order, const std::optional<EncodedLayer>& layer) {
+  if (!layer) return tl::unexpected(std::string(kNoMapYet));
+  const auto written = write_encoded_layer(layer->bytes, order.path);
+  if (!written) return tl::make_unexpected(written.error());
+  return SaveReport{"layer", layer->bytes.size(), layer->voxels, "as it is published"};
 }
 
 }  // namespace
@@ -155,7 +152,8 @@ void ControlService::save(const SaveOrder& order,
                           const std::shared_ptr<const MapSnapshot>& snapshot,
                           const Respond& respond) {
   std::string frame =
-      snapshot ? encode_saved(order, parts_.save_map, *snapshot) : encode_error(kNoMapYet);
+      snapshot ? encode_saved(order.path, parts_.save_map(*snapshot, order.path, order.colours))
+               : encode_error(kNoMapYet);
   asio::post(parts_.io, [respond, frame = std::move(frame)] { respond(frame); });
 }
 
@@ -163,7 +161,9 @@ void ControlService::save_layer(const SaveOrder& order, const Respond& done) {
   const bool asked = parts_.fleet.ask([this, order, done,
                                        guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
     asio::post(files_, [this, order, done, guard, layer = fleet.encoded_layer()] {
-      asio::post(parts_.io, [done, frame = encode_layer_saved(order.path, layer)] { done(frame); });
+      asio::post(parts_.io, [done, frame = encode_saved(order.path, save_layer_to(order, layer))] {
+        done(frame);
+      });
     });
   });
   if (!asked) done(encode_error(kTooBusy));
@@ -174,7 +174,9 @@ void ControlService::save_merged(const SaveOrder& order, const Respond& done) {
       [this, order, done, guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
         asio::post(files_, [this, order, done, guard, merged = fleet.merged_snapshot()] {
           asio::post(parts_.io,
-                     [done, frame = encode_merged_saved(order, merged.get())] { done(frame); });
+                     [done, frame = encode_saved(order.path, save_merged_to(order, merged.get()))] {
+                       done(frame);
+                     });
         });
       });
   if (!asked) done(encode_error(kTooBusy));

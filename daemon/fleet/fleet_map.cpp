@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/fleet/fleet_map.hpp"
 
-#include <bit>
 #include <utility>
 
 #include "core/exchange/layer_file.hpp"
+#include "core/layer/layer_counts.hpp"
 #include "core/layer/merge_view.hpp"
 
 namespace warren {
@@ -27,23 +27,11 @@ const char* text_of(MergeResult result) {
   return "the layer cannot be merged";
 }
 
-struct VoxelCounts {
-  std::uint64_t free = 0;
-  std::uint64_t occupied = 0;
-};
-
-VoxelCounts count_voxels(const Replica& layer) {
-  VoxelCounts counts;
-  layer.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock& block) {
-    for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
-      const auto occupied = std::popcount(block.codes.occupied()[cell]);
-      counts.occupied += static_cast<std::uint64_t>(occupied);
-      counts.free +=
-          static_cast<std::uint64_t>(std::popcount(block.codes.known()[cell]) - occupied);
-    }
-    return true;
-  });
-  return counts;
+std::span<const CodedBlock> blocks_of(std::span<const LayerChanges> changes, std::uint32_t number) {
+  for (const LayerChanges& layer : changes) {
+    if (layer.number == number) return layer.blocks;
+  }
+  return {};
 }
 
 }  // namespace
@@ -53,9 +41,9 @@ void FleetMap::tick(std::span<const LayerChanges> changes) {
   for (const LayerChanges& layer : changes) {
     OwnLayer& own = own_layer(layer);
     if (const auto T_fleet_map = layer.T_fleet_map.checked()) own.move(*T_fleet_map);
-    own.tick(layer.blocks);
     merge_.update_self(layer.number, layer.blocks);
   }
+  for (auto& [number, layer] : own_) layer.tick(blocks_of(changes, number));
   if (changes.empty()) return;
   gravity_map_ = changes.back().gravity_map;
   place_layers();
@@ -70,7 +58,7 @@ OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
   if (found != own_.end()) return found->second;
   const LayerId id{config_.origin, changes.number, draw_incarnation_()};
   const Eigen::Vector3d origin_map = changes.origin.position_map(config_.resolution.metres());
-  if (own_.empty()) merge_origin_map_ = origin_map;
+  merge_origin_map_ = origin_map;
   merge_.open_self_layer(changes.number, Eigen::Isometry3d::Identity());
   return own_.try_emplace(changes.number, id, config_.resolution, origin_map, config_.publishing)
       .first->second;
@@ -82,6 +70,16 @@ Eigen::Isometry3d FleetMap::T_merge_fleet() const {
   return T_merge_map * own_.rbegin()->second.T_fleet_map().inverse();
 }
 
+Eigen::Isometry3d FleetMap::T_merge_own(const OwnLayer& layer) const {
+  const Eigen::Isometry3d& T_fleet_map = own_.rbegin()->second.T_fleet_map();
+  // In one and the same map frame this is a shift to the last bit, so that a correction of where
+  // that frame lies in the fleet's moves nothing.
+  if (layer.T_fleet_map().matrix() == T_fleet_map.matrix()) {
+    return Eigen::Translation3d(-merge_origin_map_) * Eigen::Isometry3d(layer.T_map_layer());
+  }
+  return T_merge_fleet() * layer.T_fleet_layer();
+}
+
 void FleetMap::place_layers() {
   const Eigen::Isometry3d T_merge_fleet = this->T_merge_fleet();
   const auto differs = [&](const LayerId& id, const Eigen::Isometry3d& T_merge_layer) {
@@ -91,7 +89,7 @@ void FleetMap::place_layers() {
     return true;
   };
   for (const auto& [number, layer] : own_) {
-    const Eigen::Isometry3d T_merge_layer = T_merge_fleet * layer.T_fleet_layer();
+    const Eigen::Isometry3d T_merge_layer = T_merge_own(layer);
     if (differs(layer.layer().id(), T_merge_layer)) merge_.move_self_layer(number, T_merge_layer);
   }
   for (const auto& [id, layer] : loaded_) {
@@ -111,8 +109,7 @@ tl::expected<LoadedLayer, std::string> FleetMap::load(Replica layer) {
   if (added != MergeResult::kDone) return tl::unexpected(std::string(text_of(added)));
   T_merge_layer_.insert_or_assign(id, T_merge_layer);
   const Replica& loaded = *loaded_.emplace(id, std::move(kept)).first->second;
-  const auto [free, occupied] = count_voxels(loaded);
-  return LoadedLayer{id, loaded.resolution(), free, occupied};
+  return LoadedLayer{id, loaded.resolution(), counts_of(loaded)};
 }
 
 tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& question) {
@@ -148,25 +145,24 @@ std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) 
   const Replica* const layer = current();
   if (layer == nullptr) return std::nullopt;
   LayerDiff diff{layer->id(), layer->resolution(), layer->holdings().at(0), {}, kOrdinalEnd};
-  EncodeRequest request{keys, from, config_.publishing.packet_bytes};
   std::size_t bytes = 0;
-  while (auto packet = layer->encode(request)) {
-    if (bytes + packet->bytes.size() > kDiffBytesMax) {
-      diff.next_key = request.keys.first;
-      break;
+  for_each_packet(*layer, {keys, from, config_.publishing.packet_bytes}, [&](DiffPacket& packet) {
+    if (bytes + packet.bytes.size() > kDiffBytesMax) {
+      diff.next_key = packet.claim.keys.first;
+      return false;
     }
-    bytes += packet->bytes.size();
-    request.keys.first = packet->claim.keys.end;
-    diff.packets.push_back(std::move(packet->bytes));
-  }
+    bytes += packet.bytes.size();
+    diff.packets.push_back(std::move(packet.bytes));
+    return true;
+  });
   return diff;
 }
 
 std::optional<EncodedLayer> FleetMap::encoded_layer() const {
   const Replica* const layer = current();
   if (layer == nullptr) return std::nullopt;
-  const auto [free, occupied] = count_voxels(*layer);
-  return EncodedLayer{encode_layer(*layer), free + occupied};
+  const MapCounts known = counts_of(*layer);
+  return EncodedLayer{encode_layer(*layer), known.free + known.occupied};
 }
 
 }  // namespace warren

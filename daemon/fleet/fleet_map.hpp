@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -48,8 +51,7 @@ struct LayerDiff {
 struct LoadedLayer {
   LayerId id;
   Resolution resolution;
-  std::uint64_t voxels_free = 0;
-  std::uint64_t voxels_occupied = 0;
+  MapCounts voxels;
 };
 
 // A layer as a .layer file holds it.
@@ -79,7 +81,7 @@ class FleetMap {
         draw_incarnation_(std::move(draw_incarnation)),
         merge_({config.resolution.metres()}) {}
 
-  // One tick of all own layers.
+  // One tick of all own layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back.
   void flush();
@@ -102,6 +104,7 @@ class FleetMap {
   OwnLayer& own_layer(const LayerChanges& changes);
   const Replica* current() const;
   Eigen::Isometry3d T_merge_fleet() const;
+  Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;
   // Layers that lie elsewhere in the merge-map's frame than before are moved there.
   void place_layers();
 
@@ -109,7 +112,7 @@ class FleetMap {
   DrawIncarnation draw_incarnation_;
   std::map<std::uint32_t, OwnLayer> own_;  // the last is the current one
   std::map<LayerId, std::unique_ptr<Replica>> loaded_;
-  // The merge-map's key (0, 0, 0) in the map frame: the first own layer's, so that what is near it
+  // The merge-map's key (0, 0, 0) in the map frame: the newest own layer's, so that what is near it
   // has keys. Metres, whole blocks.
   Eigen::Vector3d merge_origin_map_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_map_{0.0, 0.0, -1.0};

@@ -14,24 +14,20 @@ void OwnLayer::move(const Eigen::Isometry3d& T_fleet_map) {
   const std::uint32_t revision = layer_.pose().origin().revision;
   if (revision > 0 && T_fleet_map.matrix() == T_fleet_map_.matrix()) return;
   T_fleet_map_ = T_fleet_map;
-  const Eigen::Isometry3d T_fleet_layer = this->T_fleet_layer();
-  layer_.pose().update_origin(
-      {revision + 1,
-       layer_.id().origin,
-       {T_fleet_layer.translation(), Eigen::Quaterniond(T_fleet_layer.linear())}});
+  layer_.pose().update_origin({revision + 1, layer_.id().origin, Pose::of(T_fleet_layer())});
 }
 
 void OwnLayer::flush() { publish(publisher_.flush(layer_)); }
 
 void OwnLayer::publish(std::span<const CodedBlock> blocks) {
-  EncodeRequest request{{}, layer_.holdings().at(0), config_.packet_bytes};
+  const Revision before = layer_.holdings().at(0);
   layer_.publish(blocks);
-  while (const auto packet = layer_.encode(request)) {
-    request.keys.first = packet->claim.keys.end;
+  for_each_packet(layer_, {{}, before, config_.packet_bytes}, [&](const DiffPacket& packet) {
     ++traffic_.packets;
-    traffic_.bytes += packet->bytes.size();
-    traffic_.bytes_of_last_tick += packet->bytes.size();
-  }
+    traffic_.bytes += packet.bytes.size();
+    traffic_.bytes_of_last_tick += packet.bytes.size();
+    return true;
+  });
 }
 
 }  // namespace warren

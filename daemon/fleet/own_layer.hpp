@@ -46,6 +46,7 @@ class OwnLayer {
   void flush();
 
   const Replica& layer() const { return layer_; }
+  const Eigen::Translation3d& T_map_layer() const { return T_map_layer_; }
   const Eigen::Isometry3d& T_fleet_map() const { return T_fleet_map_; }
   Eigen::Isometry3d T_fleet_layer() const { return T_fleet_map_ * T_map_layer_; }
   const DiffTraffic& traffic() const { return traffic_; }

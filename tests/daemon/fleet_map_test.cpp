@@ -119,8 +119,8 @@ TEST_CASE("an earlier mission's layer is ground where this robot knows nothing, 
   const auto loaded =
       fleet.load(earlier_layer({floor_block({0, 0, 0}, 1), floor_block({1, 0, 0}, 1)}));
   REQUIRE(loaded.has_value());
-  CHECK(loaded->voxels_occupied == 128);
-  CHECK(loaded->voxels_free == 896);
+  CHECK(loaded->voxels.occupied == 128);
+  CHECK(loaded->voxels.free == 896);
   CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
   CHECK(fleet.ground(question_at(0))->validity == Validity::kTooHard);
   CHECK(fleet.report().layers_loaded == 1);
@@ -152,6 +152,45 @@ TEST_CASE("a new frame epoch begins a layer of its own, and the one before still
   CHECK(second.incarnation != first.incarnation);
   CHECK(fleet.ground(question_at(0))->validity == Validity::kTraversable);
   CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
+}
+
+TEST_CASE("what is held back in a layer that a new epoch froze is published after a rest too") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {one_free_voxel({5, 5, 5})});
+  const std::vector<LayerChanges> next{changes_of({floor_block({0, 0, 0}, 1)}, 1)};
+  fleet.tick(next);
+  CHECK(fleet.report().traffic.bytes_of_last_tick > 0);
+  CHECK(fleet.report().blocks_held_back == 1);
+  const std::vector<LayerChanges> nothing{changes_of({}, 1)};
+  for (int ticks = 0; ticks < 3; ++ticks) fleet.tick(nothing);
+  CHECK(fleet.report().blocks_held_back == 0);
+  fleet.tick(nothing);
+  CHECK(fleet.report().traffic.bytes_of_last_tick == 0);
+}
+
+TEST_CASE(
+    "the merge-map lies around the newest layer, however far its frame is from the one before") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {floor_block({0, 0, 0}, 1)});
+  LayerChanges next = changes_of({floor_block({0, 0, 0}, 1)}, 1);
+  next.origin = {};
+  fleet.tick({&next, 1});
+  GroundQuestion question = question_at(0);
+  question.T_map_base.translation -= kFarOrigin.position_map(0.1);
+  CHECK(fleet.ground(question)->validity == Validity::kTraversable);
+}
+
+TEST_CASE("a correction of the map frame moves the layers of others, not this robot's own") {
+  FleetMap fleet = fleet_map();
+  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)})).has_value());
+  LayerChanges changes = changes_of({floor_block({0, 0, 0}, 1)});
+  changes.T_fleet_map.translation = {0.0, 0.8, 0.0};
+  fleet.tick({&changes, 1});
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kTraversable);
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kUnknown);
+  GroundQuestion moved = question_at(1);
+  moved.T_map_base.translation.y() -= 0.8;
+  CHECK(fleet.ground(moved)->validity == Validity::kTraversable);
 }
 
 }  // namespace warren

@@ -9,8 +9,7 @@ std::vector<ChangedVoxel> changed_voxels(std::span<const CodedBlock> now,
                                          const Replica& published) {
   std::vector<ChangedVoxel> changed;
   for (const CodedBlock& block : now) {
-    const LayerBlock* const before = published.find(block.block);
-    const BlockCodes codes = before != nullptr ? before->codes.unpack() : BlockCodes{};
+    const BlockCodes codes = published.codes(block.block).unpack();
     block.codes.for_each_known([&](std::uint32_t place, VoxelCode code) {
       if (code != codes.at(place)) changed.push_back({block.block << 9 | place, code});
     });

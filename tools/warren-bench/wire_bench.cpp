@@ -3,20 +3,13 @@
 
 #include <algorithm>
 
+#include "core/layer/layer_counts.hpp"
 #include "tools/warren-bench/wire_sweep.hpp"
 
 namespace warren {
 namespace {
 
 constexpr LayerId kLayer{1, 1, 1};
-
-void count_known(const Replica& layer, WireResult& result) {
-  layer.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock& block) {
-    ++result.blocks;
-    block.codes.for_each_known([&](std::uint32_t, VoxelCode) { ++result.voxels_known; });
-    return true;
-  });
-}
 
 double bytes_per(const Replica& layer, std::uint64_t voxels) {
   return voxels == 0 ? 0.0
@@ -65,7 +58,9 @@ tl::expected<WireResult, std::string> bench_wire(const ScanSequence& sequence,
   const auto live = run_live(tape, options, origin, copy);
   if (!live) return not_equal("exact codes");
   result.live = *live;
-  count_known(origin, result);
+  const MapCounts known = counts_of(origin);
+  result.voxels_known = known.free + known.occupied;
+  result.blocks = known.blocks;
   result.memory_origin = bytes_per(origin, result.voxels_known);
   result.memory_copy = bytes_per(copy, result.voxels_known);
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,13 +14,10 @@ namespace warren {
 inline std::vector<DiffPacket> sweep(const Replica& source, Revision from,
                                      std::size_t packet_bytes) {
   std::vector<DiffPacket> packets;
-  EncodeRequest request{{}, from, packet_bytes};
-  while (!request.keys.empty()) {
-    std::optional<DiffPacket> packet = source.encode(request);
-    if (!packet) break;
-    request.keys.first = packet->claim.keys.end;
-    packets.push_back(std::move(*packet));
-  }
+  for_each_packet(source, {{}, from, packet_bytes}, [&](DiffPacket& packet) {
+    packets.push_back(std::move(packet));
+    return true;
+  });
   return packets;
 }
 

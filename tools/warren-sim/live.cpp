@@ -8,10 +8,6 @@
 namespace warren::world {
 namespace {
 
-warren::Pose pose_of(const Eigen::Isometry3d& isometry) {
-  return {isometry.translation(), Eigen::Quaterniond(isometry.linear())};
-}
-
 // A robot's sweeps as scans, cast when they are asked for.
 class SimulatedScans : public ScanSource {
  public:
@@ -23,8 +19,8 @@ class SimulatedScans : public ScanSource {
     if (!frame) return std::nullopt;
     TimedScan timed;
     timed.time_s = frame->time_s;
-    timed.scan.T_map_base = pose_of(frame->T_map_base);
-    timed.scan.T_base_sensor = pose_of(frame->T_base_sensor);
+    timed.scan.T_map_base = warren::Pose::of(frame->T_map_base);
+    timed.scan.T_base_sensor = warren::Pose::of(frame->T_base_sensor);
     if (frame->gravity_map) timed.scan.gravity_map = *frame->gravity_map;
     timed.scan.points_sensor = std::move(frame->points_sensor);
     return timed;

@@ -66,10 +66,6 @@ class Recorder {
   Ticks ticks_;
 };
 
-Pose pose_of(const Eigen::Isometry3d& isometry) {
-  return {isometry.translation(), Eigen::Quaterniond(isometry.linear())};
-}
-
 }  // namespace
 
 tl::expected<std::vector<Ticks>, std::string> record_ticks(
@@ -89,8 +85,8 @@ tl::expected<std::vector<Ticks>, std::string> record_ticks(
   world::FrameStream frames(simulation, 0);
   while (auto frame = frames.next()) {
     Scan scan;
-    scan.T_map_base = pose_of(frame->T_map_base);
-    scan.T_base_sensor = pose_of(frame->T_base_sensor);
+    scan.T_map_base = Pose::of(frame->T_map_base);
+    scan.T_base_sensor = Pose::of(frame->T_base_sensor);
     scan.points_sensor = std::move(frame->points_sensor);
     for (const auto& recorder : recorders) recorder->add(scan);
   }
@@ -127,12 +123,10 @@ void send_ticks(const Ticks& ticks, const SenderRules& rules, bool snapshot,
   Replica layer(LayerId{1, 1, 1});
   Publisher publisher(rules);
   const auto send_since = [&](Revision from) {
-    EncodeRequest request;
-    request.from = from;
-    while (const auto packet = layer.encode(request)) {
-      request.keys.first = packet->claim.keys.end;
-      sink(packet->bytes);
-    }
+    for_each_packet(layer, {{}, from}, [&](const DiffPacket& packet) {
+      sink(packet.bytes);
+      return true;
+    });
   };
   for (const Tick& tick : ticks) {
     const Revision from = layer.holdings().at(0);

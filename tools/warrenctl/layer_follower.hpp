@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <tl/expected.hpp>
 
@@ -25,6 +26,8 @@ class LayerFollower {
   using Ask = std::function<tl::expected<control::Response, std::string>(const control::Request&)>;
 
   explicit LayerFollower(Ask ask) : ask_(std::move(ask)) {}
+  LayerFollower(const LayerFollower&) = delete;  // the copy's listener points here
+  LayerFollower& operator=(const LayerFollower&) = delete;
 
   // Asks until the copy is whole. The bytes of the packets that were taken; or why it cannot go on.
   tl::expected<std::uint64_t, std::string> catch_up();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warrenctl/layer_watch.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -42,7 +44,7 @@ class PredecessorDiffs {
     }
     std::vector<CodedBlock> changed;
     for (const BlockOrdinal block : follower.take_changed()) {
-      changed.push_back({block, now->find(block)->codes});
+      changed.push_back({block, now->codes(block)});
     }
     const auto voxels = changed_voxels(changed, *published_);
     published_->publish(changed);

@@ -2,13 +2,12 @@
 #include "core/exchange/map_writer.hpp"
 
 #include <csignal>
-#include <map>
 #include <memory>
 
 #include <doctest/doctest.h>
-#include <octomap/OcTree.h>
 #include <sys/resource.h>
 
+#include "tests/core/exchange/octomap_states.hpp"
 #include "tests/core/exchange/temporary_folder.hpp"
 #include "tests/support/simulated_scans.hpp"
 
@@ -23,7 +22,7 @@ MapSnapshot room_map(const LayerOrigin& origin, const SensorModel& model = Senso
   return map;
 }
 
-using States = std::map<VoxelKey, VoxelState>;
+using test::states_of;
 
 States states_of(const MapSnapshot& map, const LayerOrigin& shift) {
   States states;
@@ -33,17 +32,6 @@ States states_of(const MapSnapshot& map, const LayerOrigin& shift) {
   map.voxels.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, VoxelState state, float) {
     states[{moved(key.x, shift.x), moved(key.y, shift.y), moved(key.z, shift.z)}] = state;
   });
-  return states;
-}
-
-States states_of(octomap::OcTree& tree) {
-  tree.expand();
-  States states;
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    const octomap::OcTreeKey key = leaf.getKey();
-    states[{key[0] + kKeyMin, key[1] + kKeyMin, key[2] + kKeyMin}] =
-        tree.isNodeOccupied(*leaf) ? VoxelState::kOccupied : VoxelState::kFree;
-  }
   return states;
 }
 

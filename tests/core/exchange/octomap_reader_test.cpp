@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/exchange/octomap_reader.hpp"
 
-#include <map>
 #include <string>
 
 #include <doctest/doctest.h>
-#include <octomap/OcTree.h>
 
 #include "core/exchange/map_writer.hpp"
+#include "tests/core/exchange/octomap_states.hpp"
 #include "tests/core/exchange/temporary_folder.hpp"
 #include "tests/core/layer/random_codes.hpp"
 #include "tests/support/simulated_scans.hpp"
@@ -17,7 +16,7 @@ using namespace warren::test;
 
 namespace {
 
-using States = std::map<VoxelKey, VoxelState>;
+using test::states_of;
 
 States states_of(const Replica& layer) {
   States states;
@@ -28,17 +27,6 @@ States states_of(const Replica& layer) {
     });
     return true;
   });
-  return states;
-}
-
-States states_of(octomap::OcTree& tree) {
-  tree.expand();
-  States states;
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    const octomap::OcTreeKey key = leaf.getKey();
-    states[{key[0] + kKeyMin, key[1] + kKeyMin, key[2] + kKeyMin}] =
-        tree.isNodeOccupied(*leaf) ? VoxelState::kOccupied : VoxelState::kFree;
-  }
   return states;
 }
 

@@ -7,66 +7,10 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/core/layer/random_codes.hpp"
+#include "tests/core/layer/replica_steps.hpp"
 
 using namespace warren;
-
-namespace {
-
-constexpr LayerId kLayer{7, 1, 0x1234};
-
-CodedBlock block_with(BlockOrdinal block, std::uint32_t place, VoxelCode code) {
-  BlockCodes codes;
-  codes.set(place, code);
-  return {block, CodeBlock(codes)};
-}
-
-void publish(Replica& origin, const std::vector<CodedBlock>& blocks) {
-  const Revision before = origin.holdings().at(0);
-  REQUIRE(origin.publish(blocks).number == before.number + 1);
-}
-
-DiffPacket encoded(const Replica& sender, std::uint32_t from, KeyInterval keys = {}) {
-  const auto packet = sender.encode({keys, {from}});
-  REQUIRE(packet);
-  return *packet;
-}
-
-std::vector<DiffPacket> encode_all(const Replica& sender, Revision from, std::size_t limit_bytes) {
-  std::vector<DiffPacket> packets;
-  KeyInterval keys;
-  while (auto packet = sender.encode({keys, from, limit_bytes})) {
-    keys.first = packet->claim.keys.end;
-    packets.push_back(std::move(*packet));
-  }
-  return packets;
-}
-
-ApplyResult apply(Replica& receiver, const DiffPacket& packet) {
-  return receiver.apply(kLayer, packet.bytes);
-}
-
-bool same(const Replica& a, const Replica& b, BlockOrdinal block) {
-  const auto codes = [block](const Replica& replica) {
-    const LayerBlock* const found = replica.find(block);
-    return found != nullptr ? found->codes : CodeBlock{};
-  };
-  return codes(a) == codes(b);
-}
-
-// A layer with so many blocks of noise.
-Replica noisy_layer(std::size_t blocks) {
-  test::Random random(1);
-  std::vector<CodedBlock> changes;
-  for (std::size_t i = 0; i < blocks; ++i) {
-    changes.push_back({random() % kOrdinalEnd, CodeBlock(test::random_codes(random))});
-  }
-  Replica origin(kLayer);
-  publish(origin, changes);
-  return origin;
-}
-
-}  // namespace
+using namespace warren::test;
 
 TEST_CASE("a tick without changes is no revision") {
   Replica origin(kLayer);
@@ -204,52 +148,6 @@ TEST_CASE("many regions are told in key order, few changed ones without looking 
   CHECK(told({}, {1}) == std::vector<BlockOrdinal>{650 << 9 | 7});
 }
 
-TEST_CASE("what is not a packet of this layer and version changes nothing") {
-  Replica origin(kLayer);
-  publish(origin, {block_with(9, 1, VoxelCode::free())});
-  DiffPacket packet = encoded(origin, 0);
-  Replica copy(kLayer);
-  LayerId other = kLayer;
-  ++other.incarnation;
-  CHECK(copy.apply(other, packet.bytes) == ApplyResult::kOtherLayer);
-  packet.bytes[0] = kPacketVersion + 1;
-  CHECK(apply(copy, packet) == ApplyResult::kUnknownVersion);
-  packet.bytes[0] = kPacketVersion;
-  packet.bytes.pop_back();
-  CHECK(apply(copy, packet) == ApplyResult::kMalformed);
-  CHECK(copy.find(9) == nullptr);
-  CHECK(copy.holdings() == Holdings());
-}
-
-TEST_CASE("a malformed end undoes nothing, because nothing was done") {
-  const Replica origin = noisy_layer(20);
-  const auto packets = encode_all(origin, {}, 1400);
-  Replica copy(kLayer);
-  for (DiffPacket packet : packets) {
-    packet.bytes.back() = static_cast<std::uint8_t>(packet.bytes.back() ^ 1);
-    packet.bytes.push_back(0);
-    CHECK(apply(copy, packet) == ApplyResult::kMalformed);
-  }
-  CHECK(copy.holdings() == Holdings());
-  std::size_t blocks = 0;
-  copy.for_each_changed({}, {}, [&](BlockOrdinal, const LayerBlock&) { return ++blocks > 0; });
-  CHECK(blocks == 0);
-}
-
-TEST_CASE("a replica survives packets with any bit flipped, one after the other") {
-  const Replica origin = noisy_layer(3);
-  DiffPacket packet = encoded(origin, 0);
-  Replica copy(kLayer);
-  for (std::size_t bit = 0; bit < packet.bytes.size() * 8; ++bit) {
-    auto& byte = packet.bytes[bit / 8];
-    byte = static_cast<std::uint8_t>(byte ^ 1U << bit % 8);
-    apply(copy, packet);
-    byte = static_cast<std::uint8_t>(byte ^ 1U << bit % 8);
-    CHECK(copy.holdings().intervals().size() <= Holdings::kIntervalsMax);
-    if (bit % 50 == 0) copy = Replica(kLayer);
-  }
-}
-
 TEST_CASE("forgotten blocks are empty, not held, and can be had again") {
   const Replica origin = noisy_layer(50);
   Replica copy(kLayer);
@@ -320,18 +218,6 @@ TEST_CASE("the origin's listener hears of what it publishes, and of what is forg
   CHECK(told.empty());
   CHECK(origin.forget({0, 512}));
   CHECK(told == std::vector<BlockOrdinal>{9});
-}
-
-TEST_CASE("a packet of a later version is refused and counted") {
-  Replica origin(kLayer);
-  publish(origin, {block_with(9, 1, VoxelCode::free())});
-  DiffPacket packet = encoded(origin, 0);
-  ++packet.bytes[0];
-  Replica copy(kLayer);
-  for (int i = 0; i < 3; ++i) apply(copy, packet);
-  const auto index = static_cast<std::size_t>(ApplyResult::kUnknownVersion);
-  CHECK(copy.apply_counts()[index] == 3);
-  CHECK(copy.digest().root() == Replica(kLayer).digest().root());
 }
 
 TEST_CASE("two replicas that differ walk down their digests to the block") {
