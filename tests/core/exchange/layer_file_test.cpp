@@ -92,7 +92,7 @@ Bytes sealed(Bytes content) {
   return content;
 }
 Bytes unsealed(Bytes bytes) {
-  bytes.resize(bytes.size() - sizeof(Hash));
+  bytes.erase(bytes.end() - static_cast<std::ptrdiff_t>(sizeof(Hash)), bytes.end());
   return bytes;
 }
 
