@@ -112,6 +112,8 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return layer_diff_question(request.layer_diff());
     case control::Request::kMapLoad:
       return load_order(request.map_load());
+    case control::Request::kLayerFlush:
+      return FlushOrder{};
     case control::Request::kGround:
       return ground_question(request.ground());
     default:

@@ -46,8 +46,9 @@ struct LayerDiffQuestion {
   KeyInterval keys;
   Revision from;
 };
+struct FlushOrder {};
 using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder,
-                                    GroundQuestion, LayerDiffQuestion, LoadOrder>;
+                                    GroundQuestion, LayerDiffQuestion, LoadOrder, FlushOrder>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -159,6 +159,15 @@ std::string encode_layer_diff(const LayerDiff& diff) {
   return framed(response.SerializeAsString());
 }
 
+std::string encode_layer_flushed(const FlushReport& report) {
+  control::Response response;
+  auto& flushed = *response.mutable_layer_flushed();
+  fill(report.layer, *flushed.mutable_layer());
+  flushed.set_revision(report.revision.number);
+  flushed.set_blocks(report.blocks);
+  return framed(response.SerializeAsString());
+}
+
 std::string encode_map_loaded(const LoadedLayer& layer) {
   control::Response response;
   auto& loaded = *response.mutable_map_loaded();

@@ -28,6 +28,7 @@ std::string encode_status(const StatusReport& report);
 std::string encode_map_info(const MapInfoReport& info);
 std::string encode_map_saved(const std::string& path, const SaveReport& report);
 std::string encode_layer_diff(const LayerDiff& diff);
+std::string encode_layer_flushed(const FlushReport& report);
 std::string encode_map_loaded(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_config(const std::string& yaml);

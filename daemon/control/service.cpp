@@ -127,6 +127,16 @@ void ControlService::answer(const LayerDiffQuestion& question, const Respond& re
   if (!asked) respond(encode_error(kTooBusy));
 }
 
+void ControlService::answer(const FlushOrder&, const Respond& respond) {
+  const bool asked = parts_.fleet.ask([this, respond,
+                                       guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
+    const auto flushed = fleet.flush();
+    asio::post(parts_.io, [respond, frame = flushed ? encode_layer_flushed(*flushed)
+                                                    : encode_error(kNoMapYet)] { respond(frame); });
+  });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
 ControlService::Respond ControlService::begin_file_work(const Respond& respond) {
   ++pending_files_;
   return [this, respond](std::string frame) {

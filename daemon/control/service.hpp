@@ -54,6 +54,7 @@ class ControlService {
   void answer(const GroundQuestion& question, const Respond& respond);
   void answer(const LayerDiffQuestion& question, const Respond& respond);
   void answer(const LoadOrder& order, const Respond& respond);
+  void answer(const FlushOrder& order, const Respond& respond);
   void load(const LoadOrder& order, const Respond& done);
   void save_layer(const SaveOrder& order, const Respond& done);
   void save_merged(const SaveOrder& order, const Respond& done);

@@ -49,8 +49,12 @@ void FleetMap::tick(std::span<const LayerChanges> changes) {
   place_layers();
 }
 
-void FleetMap::flush() {
-  for (auto& [number, layer] : own_) layer.flush();
+std::optional<FlushReport> FleetMap::flush() {
+  std::uint64_t blocks = 0;
+  for (auto& [number, layer] : own_) blocks += layer.flush();
+  const Replica* const layer = current();
+  if (layer == nullptr) return std::nullopt;
+  return FlushReport{layer->id(), layer->holdings().at(0), blocks};
 }
 
 OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {

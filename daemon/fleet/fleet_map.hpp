@@ -47,6 +47,13 @@ struct LayerDiff {
   BlockOrdinal next_key = kOrdinalEnd;  // where to go on; the end: nothing is missing above
 };
 
+// What a flush published.
+struct FlushReport {
+  LayerId layer;  // the current one
+  Revision revision;
+  std::uint64_t blocks = 0;  // of all own layers
+};
+
 // A layer of an earlier mission that was loaded from a file: nobody goes on writing it.
 struct LoadedLayer {
   LayerId id;
@@ -83,8 +90,8 @@ class FleetMap {
 
   // One tick of all own layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
-  // Publishes what the sender rules hold back.
-  void flush();
+  // Publishes what the sender rules hold back. Nothing before the first scan.
+  std::optional<FlushReport> flush();
 
   // Into the merge-map, where the layer's pose says; or why not, in words for the client.
   tl::expected<LoadedLayer, std::string> load(Replica layer);

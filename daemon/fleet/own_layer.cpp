@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/fleet/own_layer.hpp"
 
+#include <vector>
+
 namespace warren {
 
 void OwnLayer::tick(std::span<const CodedBlock> changed) {
@@ -17,7 +19,11 @@ void OwnLayer::move(const Eigen::Isometry3d& T_fleet_map) {
   layer_.pose().update_origin({revision + 1, layer_.id().origin, Pose::of(T_fleet_layer())});
 }
 
-void OwnLayer::flush() { publish(publisher_.flush(layer_)); }
+std::size_t OwnLayer::flush() {
+  const std::vector<CodedBlock> held_back = publisher_.flush(layer_);
+  publish(held_back);
+  return held_back.size();
+}
 
 void OwnLayer::publish(std::span<const CodedBlock> blocks) {
   const Revision before = layer_.holdings().at(0);

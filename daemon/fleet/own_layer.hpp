@@ -42,8 +42,8 @@ class OwnLayer {
 
   // The exact codes of the blocks that changed since the last tick, none of them twice.
   void tick(std::span<const CodedBlock> changed);
-  // Publishes what is held back.
-  void flush();
+  // Publishes what is held back: in so many blocks.
+  std::size_t flush();
 
   const Replica& layer() const { return layer_; }
   const Eigen::Translation3d& T_map_layer() const { return T_map_layer_; }

@@ -105,6 +105,26 @@ TEST_CASE("what the sender rules hold back is published after a rest") {
   CHECK(fleet.report().current->revision == Revision{2});
 }
 
+TEST_CASE("a flush publishes what is held back in all layers, and says in how many blocks") {
+  FleetMap fleet = fleet_map();
+  CHECK_FALSE(fleet.flush().has_value());
+  tick(fleet, {one_free_voxel({5, 5, 5})});
+  const std::vector<LayerChanges> next{changes_of(
+      {floor_block({0, 0, 0}, 1), one_free_voxel({5, 5, 5}), one_free_voxel({6, 5, 5})}, 1)};
+  fleet.tick(next);
+  const auto flushed = fleet.flush();
+  REQUIRE(flushed.has_value());
+  CHECK(flushed->blocks == 3);
+  CHECK(flushed->revision == Revision{2});
+  CHECK(flushed->layer == fleet.report().current->id);
+  CHECK(fleet.report().blocks_held_back == 0);
+  Replica copy(flushed->layer);
+  follow(fleet, copy);
+  CHECK(copy.codes(ordinal_of({6, 5, 5})) == one_free_voxel({6, 5, 5}).codes);
+  CHECK(fleet.flush()->blocks == 0);
+  CHECK(fleet.flush()->revision == Revision{2});
+}
+
 TEST_CASE("without sender rules nothing waits") {
   FleetMap fleet = fleet_map({false, false});
   tick(fleet, {one_free_voxel({5, 5, 5})});

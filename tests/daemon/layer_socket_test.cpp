@@ -25,6 +25,16 @@ void take_one_scan(const RunningDaemon& daemon) {
   REQUIRE(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
 }
 
+// Asks until a tick has published something: bounded by the client's patience.
+control::Publishing first_published(const RunningDaemon& daemon) {
+  for (int asked = 0; asked < 100'000; ++asked) {
+    const control::Publishing now = daemon.status().publishing();
+    if (now.revision() > 0) return now;
+  }
+  FAIL("nothing was published");
+  return {};
+}
+
 // Asks until the scan's tick and the flush after it have been: bounded by the client's patience.
 control::Publishing published(const RunningDaemon& daemon) {
   for (int asked = 0; asked < 100'000; ++asked) {
@@ -70,6 +80,25 @@ TEST_CASE("a follower's copy and a saved layer have the digest that the daemon t
   REQUIRE(layer.has_value());
   CHECK(layer->id() == id);
   CHECK(hex_of(layer->digest().root()) == publishing.digest());
+}
+
+TEST_CASE("what is held back is published on demand") {
+  Config config = quick_ticks();
+  config.layer.flush_after_s = 3600.0;
+  RunningDaemon daemon(config);
+  TestClient client(daemon.control_socket());
+  control::Request request;
+  request.mutable_layer_flush();
+  CHECK(client.ask(request).error().text().find("no map yet") != std::string::npos);
+  take_one_scan(daemon);
+  const control::Publishing before = first_published(daemon);
+  REQUIRE(before.blocks_held_back() > 0);
+  const control::LayerFlushed flushed = client.ask(request).layer_flushed();
+  CHECK(flushed.blocks() == before.blocks_held_back());
+  CHECK(flushed.revision() == before.revision() + 1);
+  CHECK(flushed.layer().incarnation() == before.layer().incarnation());
+  CHECK(daemon.status().publishing().blocks_held_back() == 0);
+  CHECK(client.ask(request).layer_flushed().blocks() == 0);
 }
 
 TEST_CASE("a map of an earlier mission is loaded, whatever its format, and counted") {

@@ -72,6 +72,7 @@ class LayerCommands {
     watch_->add_option("--seconds", options.seconds, "Stop after so long, or when the daemon does")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
+    flush_ = layer->add_subcommand("flush", "Publish at once what the sender rules hold back");
   }
 
   std::optional<CtlCommand> parsed() const {
@@ -82,6 +83,7 @@ class LayerCommands {
     }
     if (diff_->parsed()) return LayerDiffCommand{given.file, given.other_file, given.json};
     if (digest_->parsed()) return LayerDigestCommand{given.file, given.regions};
+    if (flush_->parsed()) return LayerFlushCommand{};
     if (watch_->parsed()) return LayerWatchCommand{given.seconds};
     return std::nullopt;
   }
@@ -98,6 +100,7 @@ class LayerCommands {
   CLI::App* diff_ = nullptr;
   CLI::App* digest_ = nullptr;
   CLI::App* watch_ = nullptr;
+  CLI::App* flush_ = nullptr;
 };
 
 CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {

@@ -46,10 +46,10 @@ struct ConfigPrintCommand {
 struct ExitCommand {  // all is said: help, version, or wrong usage
   int code = 0;
 };
-using CtlCommand =
-    std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
-                 ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
-                 LayerDigestCommand, LayerWatchCommand, MapLoadCommand, ExitCommand>;
+using CtlCommand = std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand,
+                                ConfigCheckCommand, ConfigPrintCommand, LayerExportCommand,
+                                LayerImportCommand, LayerDiffCommand, LayerDigestCommand,
+                                LayerWatchCommand, LayerFlushCommand, MapLoadCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

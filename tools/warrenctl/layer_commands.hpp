@@ -30,6 +30,7 @@ struct LayerDigestCommand {
 struct LayerWatchCommand {
   int seconds = 0;
 };
+struct LayerFlushCommand {};
 
 // Each prints its result and returns the exit code: 0, or 1 after an error. A diff returns 0 for
 // equal layers, 1 for others and 2 after an error, as diff(1) does.

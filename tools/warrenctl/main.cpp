@@ -105,6 +105,13 @@ struct Executor {
   int operator()(const LayerDiffCommand& command) const { return run(command); }
   int operator()(const LayerDigestCommand& command) const { return run(command); }
   int operator()(const LayerWatchCommand& command) const { return run(command, socket); }
+  int operator()(const LayerFlushCommand&) const {
+    control::Request request;
+    request.mutable_layer_flush();
+    return ask_and_show(socket, request, [](const control::Response& response) {
+      return sentence_of(response.layer_flushed());
+    });
+  }
   int operator()(const ExitCommand& command) const { return command.code; }
 };
 

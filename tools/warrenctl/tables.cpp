@@ -146,6 +146,13 @@ std::string sentence_of(const control::MapLoaded& loaded) {
   return out.str();
 }
 
+std::string sentence_of(const control::LayerFlushed& flushed) {
+  std::ostringstream out;
+  out << flushed.blocks() << " blocks were held back and are published now; revision "
+      << flushed.revision() << "\n";
+  return out.str();
+}
+
 std::string json_of(const google::protobuf::Message& message) {
   google::protobuf::util::JsonPrintOptions options;
   options.always_print_primitive_fields = true;

@@ -5,6 +5,7 @@
 
 namespace warren::control {
 class Ground;
+class LayerFlushed;
 class MapInfo;
 class MapLoaded;
 class MapSaved;
@@ -23,6 +24,7 @@ std::string table_of(const control::MapInfo& info);
 std::string table_of(const control::Ground& ground);
 std::string sentence_of(const control::MapSaved& saved);
 std::string sentence_of(const control::MapLoaded& loaded);
+std::string sentence_of(const control::LayerFlushed& flushed);
 // Every field, by its name in the .proto; 64-bit integers are strings, as protobuf's JSON has them.
 std::string json_of(const google::protobuf::Message& message);
 
