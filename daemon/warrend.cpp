@@ -23,7 +23,7 @@ SensorFilters filters_of(const Config& config) {
 FleetMapConfig fleet_config(const Config& config) {
   // The config allows no resolution that a layer cannot have.
   return {node_id(config.node.name), Resolution::from_metres(config.map.resolution_m).value(),
-          config.layer.resolved()};
+          config.layer.resolved(), config.layer.rest_after_ticks()};
 }
 
 std::chrono::nanoseconds tick_of(const Config& config) {

@@ -88,6 +88,12 @@ std::size_t LayerBlocks::memory_bytes() const {
   return bytes;
 }
 
+std::size_t LayerBlocks::bytes_at_rest() const {
+  std::size_t bytes = 0;
+  for (const auto& [ordinal, region] : regions_) bytes += region.packed.capacity();
+  return bytes;
+}
+
 bool LayerBlocks::wake(Regions::value_type& entry) {
   auto& [ordinal, region] = entry;
   if (!region.rests()) return false;

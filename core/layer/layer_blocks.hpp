@@ -50,7 +50,11 @@ class LayerBlocks {
   // False if it was awake.
   bool wake(RegionOrdinal region);
 
+  std::size_t regions() const { return by_change_.size(); }
+  std::size_t regions_awake() const { return awake_by_change_.size(); }
   std::size_t memory_bytes() const;
+  // Of these, what the regions at rest take.
+  std::size_t bytes_at_rest() const;
 
  private:
   struct Region {

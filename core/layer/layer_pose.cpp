@@ -38,7 +38,10 @@ Eigen::Isometry3d LayerPose::T_fleet_layer() const {
 
 PoseResult LayerPose::update(WrittenPose& held, const WrittenPose& written) {
   if (written.revision == 0) return PoseResult::kNotWritten;
-  if (!is_within_reach(written.pose)) return PoseResult::kNotRigid;
+  if (!is_within_reach(written.pose)) {
+    ++refused_;
+    return PoseResult::kNotRigid;
+  }
   if (rank_of(written) <= rank_of(held)) return PoseResult::kNotNewer;
   held = {written.revision, written.writer, without_negative_zeros(written.pose)};
   return PoseResult::kTaken;

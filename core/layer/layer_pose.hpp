@@ -37,16 +37,22 @@ class LayerPose {
 
   const WrittenPose& origin() const { return origin_; }
   const WrittenPose& correction() const { return correction_; }
+  // How often a pose was not rigid, or beyond kReach_m.
+  std::uint64_t refused() const { return refused_; }
   // Identity before anything is written.
   Eigen::Isometry3d T_fleet_layer() const;
 
-  friend bool operator==(const LayerPose&, const LayerPose&) = default;
-
  private:
-  static PoseResult update(WrittenPose& held, const WrittenPose& written);
+  PoseResult update(WrittenPose& held, const WrittenPose& written);
 
   WrittenPose origin_;
   WrittenPose correction_;
+  std::uint64_t refused_ = 0;
 };
+
+// Refused poses leave no trace.
+inline bool operator==(const LayerPose& a, const LayerPose& b) {
+  return a.origin() == b.origin() && a.correction() == b.correction();
+}
 
 }  // namespace warren

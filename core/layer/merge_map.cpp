@@ -31,7 +31,7 @@ MergeResult MergeMap::update_self(std::uint32_t number, std::span<const CodedBlo
   begin_change();
   for (const CodedBlock& block : blocks) {
     source->keep(block);
-    update_block(*source, block.block);
+    if (source->counts()) update_block(*source, block.block);
   }
   return MergeResult::kDone;
 }
@@ -76,8 +76,13 @@ MergeResult MergeMap::move_layer(const LayerId& id, const Eigen::Isometry3d& T_m
   return move(foreign_id(id), T_merge_layer);
 }
 
-MergeResult MergeMap::retract_layer(const LayerId& id) {
-  MergeSource* const source = find(foreign_id(id));
+MergeResult MergeMap::retract_layer(const LayerId& id) { return retract(foreign_id(id)); }
+MergeResult MergeMap::retract_self_layer(std::uint32_t number) { return retract(self_id(number)); }
+MergeResult MergeMap::restore_layer(const LayerId& id) { return restore(foreign_id(id)); }
+MergeResult MergeMap::restore_self_layer(std::uint32_t number) { return restore(self_id(number)); }
+
+MergeResult MergeMap::retract(const MergeSourceId& id) {
+  MergeSource* const source = find(id);
   if (source == nullptr) return MergeResult::kUnknownLayer;
   untouch_all(*source);
   source->set_counts(false);
@@ -85,8 +90,8 @@ MergeResult MergeMap::retract_layer(const LayerId& id) {
   return MergeResult::kDone;
 }
 
-MergeResult MergeMap::restore_layer(const LayerId& id) {
-  MergeSource* const source = find(foreign_id(id));
+MergeResult MergeMap::restore(const MergeSourceId& id) {
+  MergeSource* const source = find(id);
   if (source == nullptr) return MergeResult::kUnknownLayer;
   if (source->counts()) return MergeResult::kDone;
   source->set_counts(true);

@@ -63,6 +63,9 @@ class MergeMap {
   // These blocks have these codes now.
   MergeResult update_self(std::uint32_t number, std::span<const CodedBlock> blocks);
   MergeResult move_self_layer(std::uint32_t number, const Eigen::Isometry3d& T_merge_layer);
+  // As if it had never been opened, until it is restored.
+  MergeResult retract_self_layer(std::uint32_t number);
+  MergeResult restore_self_layer(std::uint32_t number);
 
   // A layer of others, with all blocks it has now. The replica must stay where it is until the
   // layer is removed, and the merge-map be told of every block whose codes change.
@@ -115,6 +118,8 @@ class MergeMap {
   std::optional<MergePlacement> place(const Eigen::Isometry3d& T_merge_layer,
                                       double resolution_m) const;
   MergeResult move(const MergeSourceId& id, const Eigen::Isometry3d& T_merge_layer);
+  MergeResult retract(const MergeSourceId& id);
+  MergeResult restore(const MergeSourceId& id);
   void update_block(MergeSource& source, BlockOrdinal block);
   void touch_all(MergeSource& source);
   void untouch_all(MergeSource& source);

@@ -20,6 +20,11 @@ void add(SampledBlock& sampled, std::uint32_t place, VoxelCode code, std::int64_
 
 std::uint32_t place_of(const VoxelKey& key) { return morton9(key.x, key.y, key.z); }
 
+struct Candidate {
+  CodeBlock codes;
+  std::int64_t changed_ns = 0;
+};
+
 VoxelKey voxel_at(const BlockKey& block, std::uint32_t place) {
   const VoxelKey first = first_voxel_of(block);
   const VoxelKey within = place_of_morton9(place);
@@ -107,12 +112,13 @@ bool MergeSource::sample_shifted(const BlockKey& merge_block, const BlockBox& bo
 
 bool MergeSource::resample(const BlockKey& merge_block, const BlockBox& box,
                            SampledBlock& sampled) const {
-  std::vector<Found> candidates;
+  // Copies: what find() told of a region at rest is gone once it has read a few others.
+  std::vector<Candidate> candidates;
   candidates.reserve(box.size());
   bool any = false;
   box.for_each([&](const BlockKey& key) {
     const Found found = find(key);
-    candidates.push_back(found);
+    candidates.push_back({found.codes != nullptr ? *found.codes : CodeBlock{}, found.changed_ns});
     if (found.codes == nullptr) return;
     any = true;
     for (std::uint32_t cell = 0; cell < kCellsPerBlock; ++cell) {
@@ -128,10 +134,10 @@ bool MergeSource::resample(const BlockKey& merge_block, const BlockBox& box,
   for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
     const auto layer = placement_.to_layer(voxel_at(merge_block, place));
     const auto index = layer ? box.index_of(block_of(*layer)) : std::nullopt;
-    if (!index || candidates[*index].codes == nullptr) continue;
-    const Found& found = candidates[*index];
-    const VoxelCode code = found.codes->at(place_of(*layer));
-    if (code.state() != VoxelState::kUnknown) add(sampled, place, code, found.changed_ns);
+    if (!index || candidates[*index].codes.empty()) continue;
+    const Candidate& candidate = candidates[*index];
+    const VoxelCode code = candidate.codes.at(place_of(*layer));
+    if (code.state() != VoxelState::kUnknown) add(sampled, place, code, candidate.changed_ns);
   }
   return true;
 }

@@ -127,4 +127,11 @@ std::vector<CodedBlock> Publisher::flush(const Replica& published) {
   return changed;
 }
 
+std::size_t Publisher::memory_bytes() const {
+  std::size_t bytes = 0;
+  // A node of a tree has 32 bytes of its own.
+  for (const auto& entry : held_back_) bytes += 32 + sizeof(entry) + entry.second.heap_bytes();
+  return bytes;
+}
+
 }  // namespace warren

@@ -43,6 +43,7 @@ class Publisher {
   // All that is held back: with it the layer is exact.
   std::vector<CodedBlock> flush(const Replica& published);
   std::size_t blocks_held_back() const { return held_back_.size(); }
+  std::size_t memory_bytes() const;
 
  private:
   SenderRules rules_;

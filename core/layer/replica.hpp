@@ -111,6 +111,10 @@ class Replica {
   // change done. It may read this replica.
   void on_change(std::function<void(BlockOrdinal)> listener) { listener_ = std::move(listener); }
 
+  std::size_t regions() const { return blocks_.regions(); }
+  std::size_t regions_awake() const { return blocks_.regions_awake(); }
+  // Of memory_bytes(), the packed blocks of regions at rest.
+  std::size_t bytes_at_rest() const { return blocks_.bytes_at_rest(); }
   std::size_t memory_bytes() const { return blocks_.memory_bytes() + digest_.memory_bytes(); }
 
  private:

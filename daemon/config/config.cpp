@@ -5,6 +5,14 @@
 #include <cmath>
 
 namespace warren {
+namespace {
+
+// Rounded up, at least one.
+std::uint32_t ticks_in(double time_s, double tick_s) {
+  return static_cast<std::uint32_t>(std::max(std::ceil(time_s / tick_s), 1.0));
+}
+
+}  // namespace
 
 SensorModel SensorModelConfig::resolved() const {
   switch (preset) {
@@ -37,11 +45,11 @@ TerrainConfig TerrainSettings::resolved() const {
 }
 
 PublishingConfig LayerSettings::resolved() const {
-  const double ticks = std::ceil(flush_after_s / tick_s);
-  return {{hold_ragged_free, hold_small_cost_changes},
-          packet_bytes,
-          static_cast<std::uint32_t>(std::max(ticks, 1.0))};
+  return {
+      {hold_ragged_free, hold_small_cost_changes}, packet_bytes, ticks_in(flush_after_s, tick_s)};
 }
+
+std::uint32_t LayerSettings::rest_after_ticks() const { return ticks_in(rest_after_s, tick_s); }
 
 SelfMapConfig Config::self_map() const {
   SelfMapConfig config{

@@ -65,15 +65,17 @@ struct MapConfig {
   friend bool operator==(const MapConfig&, const MapConfig&) = default;
 };
 
-// How the own layer is published.
+// How the own layer is published, and layers are kept.
 struct LayerSettings {
   double tick_s = 1.0;
   bool hold_ragged_free = true;
   bool hold_small_cost_changes = true;
   double flush_after_s = 30.0;
   std::uint32_t packet_bytes = 1200;
+  double rest_after_s = 60.0;
 
   PublishingConfig resolved() const;
+  std::uint32_t rest_after_ticks() const;
   friend bool operator==(const LayerSettings&, const LayerSettings&) = default;
 };
 

@@ -130,6 +130,12 @@ constexpr std::array kRootKeys{
             Takes::kRestart,
             [](Config& c) -> Slot { return &c.layer.packet_bytes; },
             {440, 1400}},
+    RootKey{"layer.rest_after_s",
+            "Parts of a layer that nothing has changed for so long, seconds, are packed: about a "
+            "thirtieth of the memory, and some milliseconds whenever one is read or changed again.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.layer.rest_after_s; },
+            {0.1, 86400.0}},
     RootKey{"ingest.queue_scans",
             "Scans that may wait for the mapping thread. When one more comes, the oldest is "
             "dropped and counted.",

@@ -44,9 +44,16 @@ void FleetMap::tick(std::span<const LayerChanges> changes) {
     merge_.update_self(layer.number, layer.blocks);
   }
   for (auto& [number, layer] : own_) layer.tick(blocks_of(changes, number));
+  rest_quiet_layers();
   if (changes.empty()) return;
   gravity_map_ = changes.back().gravity_map;
   place_layers();
+}
+
+void FleetMap::rest_quiet_layers() {
+  std::size_t left = kRegionsRestedPerTick;
+  for (auto& [number, layer] : own_) left -= layer.rest(left);
+  for (auto& [id, layer] : loaded_) left -= rest_quiet_regions(layer.replica, layer.rest, left);
 }
 
 std::optional<FlushReport> FleetMap::flush() {
@@ -64,7 +71,9 @@ OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
   const Eigen::Vector3d origin_map = changes.origin.position_map(config_.resolution.metres());
   merge_origin_map_ = origin_map;
   merge_.open_self_layer(changes.number, Eigen::Isometry3d::Identity());
-  return own_.try_emplace(changes.number, id, config_.resolution, origin_map, config_.publishing)
+  return own_
+      .try_emplace(changes.number, id, config_.resolution, origin_map, config_.publishing,
+                   config_.rest_after_ticks)
       .first->second;
 }
 
@@ -97,7 +106,7 @@ void FleetMap::place_layers() {
     if (differs(layer.layer().id(), T_merge_layer)) merge_.move_self_layer(number, T_merge_layer);
   }
   for (const auto& [id, layer] : loaded_) {
-    const Eigen::Isometry3d T_merge_layer = T_merge_fleet * layer->pose().T_fleet_layer();
+    const Eigen::Isometry3d T_merge_layer = T_merge_fleet * layer.replica.pose().T_fleet_layer();
     if (differs(id, T_merge_layer)) merge_.move_layer(id, T_merge_layer);
   }
 }
@@ -107,12 +116,18 @@ tl::expected<LoadedLayer, std::string> FleetMap::load(Replica layer) {
   if (loaded_.size() == kLoadedLayersMax) {
     return tl::unexpected(std::string("too many layers are loaded already"));
   }
-  auto kept = std::make_unique<Replica>(std::move(layer));
-  const Eigen::Isometry3d T_merge_layer = T_merge_fleet() * kept->pose().T_fleet_layer();
-  const MergeResult added = merge_.add_layer(id, *kept, kept->resolution().metres(), T_merge_layer);
-  if (added != MergeResult::kDone) return tl::unexpected(std::string(text_of(added)));
+  const Eigen::Isometry3d T_merge_layer = T_merge_fleet() * layer.pose().T_fleet_layer();
+  const auto [kept, is_new] =
+      loaded_.try_emplace(id, Loaded{std::move(layer), RestSchedule(config_.rest_after_ticks)});
+  if (!is_new) return tl::unexpected(std::string(text_of(MergeResult::kKnownLayer)));
+  const Replica& loaded = kept->second.replica;
+  const MergeResult added =
+      merge_.add_layer(id, loaded, loaded.resolution().metres(), T_merge_layer);
+  if (added != MergeResult::kDone) {
+    loaded_.erase(kept);
+    return tl::unexpected(std::string(text_of(added)));
+  }
   T_merge_layer_.insert_or_assign(id, T_merge_layer);
-  const Replica& loaded = *loaded_.emplace(id, std::move(kept)).first->second;
   return LoadedLayer{id, loaded.resolution(), counts_of(loaded)};
 }
 

@@ -71,6 +71,7 @@ struct FleetMapConfig {
   std::uint32_t origin = 0;  // of the own layers
   Resolution resolution;
   PublishingConfig publishing;
+  std::uint32_t rest_after_ticks = 60;
 };
 
 // All layers that this node holds, and the merge-map of them, which lies in the map frame of the
@@ -78,6 +79,8 @@ struct FleetMapConfig {
 class FleetMap {
  public:
   static constexpr std::size_t kLoadedLayersMax = 64;
+  // A region takes some milliseconds.
+  static constexpr std::size_t kRegionsRestedPerTick = 8;
   // More than one answer may hold; a follower asks again.
   static constexpr std::size_t kDiffBytesMax = 512 * 1024;
 
@@ -88,7 +91,7 @@ class FleetMap {
         draw_incarnation_(std::move(draw_incarnation)),
         merge_({config.resolution.metres()}) {}
 
-  // One tick of all own layers, also of those in which nothing changed.
+  // One tick of all layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back. Nothing before the first scan.
   std::optional<FlushReport> flush();
@@ -114,11 +117,16 @@ class FleetMap {
   Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;
   // Layers that lie elsewhere in the merge-map's frame than before are moved there.
   void place_layers();
+  void rest_quiet_layers();
 
   FleetMapConfig config_;
   DrawIncarnation draw_incarnation_;
   std::map<std::uint32_t, OwnLayer> own_;  // the last is the current one
-  std::map<LayerId, std::unique_ptr<Replica>> loaded_;
+  struct Loaded {
+    Replica replica;
+    RestSchedule rest;
+  };
+  std::map<LayerId, Loaded> loaded_;  // the merge-map refers to them
   // The merge-map's key (0, 0, 0) in the map frame: the newest own layer's, so that what is near it
   // has keys. Metres, whole blocks.
   Eigen::Vector3d merge_origin_map_ = Eigen::Vector3d::Zero();

@@ -9,6 +9,7 @@
 
 #include "core/layer/publishing_config.hpp"
 #include "core/layer/replica.hpp"
+#include "daemon/fleet/rest_schedule.hpp"
 
 namespace warren {
 
@@ -31,11 +32,12 @@ class OwnLayer {
  public:
   // `origin_map` is where its key (0, 0, 0) lies in its map frame, metres.
   OwnLayer(const LayerId& id, Resolution resolution, const Eigen::Vector3d& origin_map,
-           const PublishingConfig& config)
+           const PublishingConfig& config, std::uint32_t rest_after_ticks)
       : config_(config),
         T_map_layer_(origin_map),
         layer_(id, resolution),
-        publisher_(config.rules) {}
+        publisher_(config.rules),
+        rest_(rest_after_ticks) {}
 
   // Its map frame lies there now.
   void move(const Eigen::Isometry3d& T_fleet_map);
@@ -44,6 +46,10 @@ class OwnLayer {
   void tick(std::span<const CodedBlock> changed);
   // Publishes what is held back: in so many blocks.
   std::size_t flush();
+
+  // To be called at every tick: packs what has been unchanged for long, at most so many regions;
+  // how many it did.
+  std::size_t rest(std::size_t most) { return rest_quiet_regions(layer_, rest_, most); }
 
   const Replica& layer() const { return layer_; }
   const Eigen::Translation3d& T_map_layer() const { return T_map_layer_; }
@@ -60,6 +66,7 @@ class OwnLayer {
   Eigen::Isometry3d T_fleet_map_ = Eigen::Isometry3d::Identity();
   Replica layer_;
   Publisher publisher_;
+  RestSchedule rest_;
   DiffTraffic traffic_;
   std::uint32_t ticks_at_rest_ = 0;
 };

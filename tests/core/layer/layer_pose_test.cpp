@@ -87,6 +87,7 @@ TEST_CASE("what is no rigid motion, or was never written, is refused and changes
   scaled.rotation.coeffs() *= 2.0;
   CHECK(refused(scaled));
   CHECK(pose.update_origin({0, 5, pose_of(1.0, 0.0)}) == PoseResult::kNotWritten);
+  CHECK(pose.refused() == 6);
   CHECK(pose == LayerPose{});
 }
 

@@ -80,6 +80,19 @@ TEST_CASE("of two layers of this node the later one wins, free or not") {
   CHECK(map.voxel(VoxelKey{4, 2, 1}).code == VoxelCode::free());
 }
 
+TEST_CASE("a layer of this node is retracted and restored too, with what it learnt in between") {
+  MergeMap map({kResolution_m});
+  REQUIRE(map.open_self_layer(1, kHere) == MergeResult::kDone);
+  REQUIRE(map.update_self(1, {{block_with(VoxelCode::free())}}) == MergeResult::kDone);
+  CHECK(map.retract_self_layer(2) == MergeResult::kUnknownLayer);
+  CHECK(map.restore_self_layer(2) == MergeResult::kUnknownLayer);
+  REQUIRE(map.retract_self_layer(1) == MergeResult::kDone);
+  REQUIRE(map.update_self(1, {{block_with(VoxelCode::occupied(3, false))}}) == MergeResult::kDone);
+  CHECK(voxels_of(map).empty());
+  REQUIRE(map.restore_self_layer(1) == MergeResult::kDone);
+  CHECK(map.voxel(kVoxel).code == VoxelCode::occupied(3, false));
+}
+
 TEST_CASE(
     "of others, occupied beats free, a higher cost a lower and no data, and any stair counts") {
   const auto merge_of = [](VoxelCode a, VoxelCode b) {

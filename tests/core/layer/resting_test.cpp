@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/layer/merge_map.hpp"
 #include "core/layer/replica.hpp"
 #include "tests/core/layer/mine_layer.hpp"
 
@@ -46,8 +47,14 @@ TEST_CASE("rest changes nothing that can be read, told, or hashed") {
   for (const auto& region : regions) hashes.push_back(layer.digest_blocks(region.ordinal));
 
   CHECK(layer.rest({0}, kAll) == 0);
+  CHECK(layer.regions_awake() == layer.regions());
+  CHECK(layer.bytes_at_rest() == 0);
   const std::size_t rested = layer.rest(layer.holdings().at(0), kAll);
   CHECK(rested == layer.regions_by_change({}, kAll).size());
+  CHECK(layer.regions() == rested);
+  CHECK(layer.regions_awake() == 0);
+  CHECK(layer.bytes_at_rest() > 0);
+  CHECK(layer.bytes_at_rest() < layer.memory_bytes());
   CHECK(layer.rest(layer.holdings().at(0), kAll) == 0);
 
   CHECK(content(layer) == before);
@@ -150,6 +157,26 @@ TEST_CASE("a visitor may read other blocks at rest, as many as it likes") {
     return found.codes == before.at(block).second;
   });
   CHECK(visits == before.size());
+}
+
+TEST_CASE("a layer at rest merges as one awake, even where a block needs many of its regions") {
+  const double fine_m = 0.0125;
+  Replica layer = test::mine_layer(kLayer, 60);
+  const auto merged = [&] {
+    Eigen::Isometry3d askew(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+    askew.translation() = Eigen::Vector3d(0.03, 0.01, -0.02);
+    MergeMap map({0.1});
+    REQUIRE(map.add_layer(kLayer, layer, fine_m, askew) == MergeResult::kDone);
+    std::vector<std::pair<std::uint64_t, VoxelCode>> voxels;
+    map.for_each_known_voxel(KeyBox{}, [&](const VoxelKey& key, const MergedVoxel& voxel) {
+      voxels.emplace_back(morton_of(key), voxel.code);
+    });
+    return voxels;
+  };
+  const auto awake = merged();
+  CHECK(awake.size() > 100);
+  REQUIRE(layer.rest(layer.holdings().at(0), kAll) > LayerBlocks::kRegionsReadMax);
+  CHECK(merged() == awake);
 }
 
 TEST_CASE("a known voxel takes at most 2.5 bytes awake and 0.06 at rest") {
