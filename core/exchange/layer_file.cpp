@@ -35,9 +35,16 @@ WrittenPose read_pose(ByteReader& in) {
 // Such a pose is the identity, or the file is malformed.
 bool is_unwritten(const WrittenPose& written) { return written == WrittenPose{}; }
 
-bool take_poses(LayerPose& pose, const WrittenPose& origin, const WrittenPose& correction) {
-  return (is_unwritten(origin) || pose.update_origin(origin) == PoseResult::kTaken) &&
-         (is_unwritten(correction) || pose.update_correction(correction) == PoseResult::kTaken);
+std::optional<LayerFileError> take_poses(LayerPose& pose, const WrittenPose& origin,
+                                         const WrittenPose& correction) {
+  const std::array results = {
+      is_unwritten(origin) ? PoseResult::kTaken : pose.update_origin(origin),
+      is_unwritten(correction) ? PoseResult::kTaken : pose.update_correction(correction)};
+  for (const PoseResult result : results) {
+    if (result == PoseResult::kNotRigid) return LayerFileError::kBadPose;
+    if (result != PoseResult::kTaken) return LayerFileError::kMalformed;
+  }
+  return std::nullopt;
 }
 
 void add_packets(ByteWriter& out, const Replica& replica) {
@@ -101,9 +108,8 @@ tl::expected<Replica, LayerFileError> read_content(ByteReader in) {
   const WrittenPose origin = read_pose(in);
   const WrittenPose correction = read_pose(in);
   LayerPose pose;
-  if (!in.complete() || !resolution || !take_poses(pose, origin, correction)) {
-    return tl::unexpected(LayerFileError::kMalformed);
-  }
+  if (!in.complete() || !resolution) return tl::unexpected(LayerFileError::kMalformed);
+  if (const auto error = take_poses(pose, origin, correction)) return tl::unexpected(*error);
   PacketSequence packets;
   while (const auto size = in.number<std::uint32_t>()) {
     if (size > kLayerFilePacketBytesMax) return tl::unexpected(LayerFileError::kMalformed);
@@ -143,6 +149,8 @@ const char* text_of(LayerFileError error) {
       return "cut short or altered: its checksum is wrong";
     case LayerFileError::kMalformed:
       return "no writer of layers makes such bytes";
+    case LayerFileError::kBadPose:
+      return "its pose is not finite, no rotation, or over 100000 km off";
     case LayerFileError::kUnknownPacketVersion:
       return "holds diff packets of a later version";
     case LayerFileError::kTooLarge:

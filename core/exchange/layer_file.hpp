@@ -26,6 +26,7 @@ enum class LayerFileError : std::uint8_t {
   kUnknownVersion,
   kCorrupt,  // the checksum says that the bytes are not those that were written
   kMalformed,
+  kBadPose,  // not finite, no rotation, or beyond LayerPose::kReach_m
   kUnknownPacketVersion,
   kTooLarge,
   kDigestMismatch,

@@ -2,6 +2,9 @@
 #include "core/exchange/layer_file.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -169,8 +172,8 @@ TEST_CASE("forged files with a right checksum are read in bounds") {
     content[bit / 8] = static_cast<std::uint8_t>(content[bit / 8] ^ 1U << bit % 8);
   }
   CHECK(met == std::set{LayerFileError::kNotALayer, LayerFileError::kUnknownVersion,
-                        LayerFileError::kMalformed, LayerFileError::kUnknownPacketVersion,
-                        LayerFileError::kDigestMismatch});
+                        LayerFileError::kMalformed, LayerFileError::kBadPose,
+                        LayerFileError::kUnknownPacketVersion, LayerFileError::kDigestMismatch});
   Random random(1);
   for (int round = 0; round < 2000; ++round) {
     Bytes noise(content.begin(), content.begin() + 28 + below(random, 140));
@@ -194,6 +197,30 @@ TEST_CASE("each reason to refuse a layer file has its name") {
   Bytes other_root = unsealed(bytes);
   other_root.back() = static_cast<std::uint8_t>(other_root.back() ^ 1);
   CHECK(error_of(sealed(other_root)) == LayerFileError::kDigestMismatch);
+}
+
+TEST_CASE("a pose that is not finite, no rotation or too far off is named as what is wrong") {
+  constexpr std::size_t kOriginX = 36;  // after magic, version, id, resolution, revision, writer
+  constexpr std::size_t kOriginQw = kOriginX + 6 * 8;
+  constexpr std::size_t kCorrectionX = kOriginX + 64;
+  const auto with = [](std::size_t at, double number) {
+    Bytes content = unsealed(encode_layer(small_layer()));
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    for (std::size_t i = 0; i < 8; ++i) content[at + i] = static_cast<std::uint8_t>(bits >> 8 * i);
+    return sealed(content);
+  };
+  CHECK(decode_layer(with(kOriginX, 1e8)).has_value());
+  CHECK(error_of(with(kOriginX, 1.001e8)) == LayerFileError::kBadPose);
+  CHECK(error_of(with(kOriginX, 1e300)) == LayerFileError::kBadPose);
+  CHECK(error_of(with(kOriginX, std::nan(""))) == LayerFileError::kBadPose);
+  CHECK(error_of(with(kOriginQw, std::numeric_limits<double>::infinity())) ==
+        LayerFileError::kBadPose);
+  CHECK(error_of(with(kOriginQw, 9.0)) == LayerFileError::kBadPose);
+  CHECK(error_of(with(kCorrectionX, -2e9)) == LayerFileError::kBadPose);
+  const TemporaryFolder folder;
+  const Bytes far = with(kOriginX, 2e9);
+  folder.write("far.layer", std::string(far.begin(), far.end()));
+  CHECK(read_layer(folder / "far.layer").error().find("far.layer: its pose") != std::string::npos);
 }
 
 TEST_CASE("a layer file is written whole, and errors name the file") {
