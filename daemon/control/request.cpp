@@ -2,12 +2,15 @@
 #include "daemon/control/request.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/layer/layer_pose.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
 namespace {
 
+constexpr double kYawMost_rad = 1000.0;
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
 // What is wrong with the path that this request names; nothing if nothing is.
@@ -91,6 +94,28 @@ tl::expected<ControlRequest, std::string> layer_diff_question(
   return LayerDiffQuestion{{request.first_key(), kOrdinalEnd}, Revision{request.from()}};
 }
 
+LayerId id_of(const control::LayerId& id) { return {id.origin(), id.number(), id.incarnation()}; }
+
+template <typename Order, typename Request>
+tl::expected<ControlRequest, std::string> layer_order(const std::string& name,
+                                                      const Request& request) {
+  if (!request.has_layer()) return tl::unexpected(name + ".layer is needed");
+  return Order{id_of(request.layer())};
+}
+
+tl::expected<ControlRequest, std::string> move_order(const control::MapMoveRequest& request) {
+  if (!request.has_layer()) return tl::unexpected(std::string("map_move.layer is needed"));
+  const MoveOrder order{id_of(request.layer()),
+                        {{request.x_m(), request.y_m(), request.z_m()}, request.yaw_rad()}};
+  const bool is_sane = order.shift.shift_fleet_m.allFinite() &&
+                       order.shift.shift_fleet_m.cwiseAbs().maxCoeff() <= LayerPose::kReach_m &&
+                       std::abs(order.shift.yaw_rad) <= kYawMost_rad;
+  if (!is_sane) {
+    return tl::unexpected(std::string("map_move needs up to 1e8 m each way and 1000 rad"));
+  }
+  return order;
+}
+
 }  // namespace
 
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes) {
@@ -114,6 +139,12 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return load_order(request.map_load());
     case control::Request::kLayerFlush:
       return FlushOrder{};
+    case control::Request::kMapRetract:
+      return layer_order<RetractOrder>("map_retract", request.map_retract());
+    case control::Request::kMapRestore:
+      return layer_order<RestoreOrder>("map_restore", request.map_restore());
+    case control::Request::kMapMove:
+      return move_order(request.map_move());
     case control::Request::kGround:
       return ground_question(request.ground());
     default:

@@ -47,8 +47,25 @@ struct LayerDiffQuestion {
   Revision from;
 };
 struct FlushOrder {};
-using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder,
-                                    GroundQuestion, LayerDiffQuestion, LoadOrder, FlushOrder>;
+// How a layer lies apart from where its pose puts it: turned about the vertical through its origin,
+// then shifted.
+struct LayerShift {
+  Eigen::Vector3d shift_fleet_m = Eigen::Vector3d::Zero();
+  double yaw_rad = 0.0;
+};
+struct RetractOrder {
+  LayerId layer;
+};
+struct RestoreOrder {
+  LayerId layer;
+};
+struct MoveOrder {
+  LayerId layer;
+  LayerShift shift;
+};
+using ControlRequest =
+    std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion,
+                 LayerDiffQuestion, LoadOrder, FlushOrder, RetractOrder, RestoreOrder, MoveOrder>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -90,11 +90,30 @@ void fill(const PublishingReport& report, control::Publishing& publishing) {
   publishing.set_bytes(report.traffic.bytes);
   publishing.set_bytes_of_last_tick(report.traffic.bytes_of_last_tick);
   publishing.set_blocks_held_back(report.blocks_held_back);
-  publishing.set_memory_bytes(report.memory_bytes);
   if (!report.current) return;
   fill(report.current->id, *publishing.mutable_layer());
   publishing.set_revision(report.current->revision.number);
   publishing.set_digest(hex_of(report.current->digest));
+}
+
+void fill(const LayerMemory& memory, control::LayerMemory& message) {
+  message.set_own_layers_bytes(memory.own_layers_bytes);
+  message.set_loaded_layers_bytes(memory.loaded_layers_bytes);
+  message.set_merge_map_bytes(memory.merge_map_bytes);
+  message.set_at_rest_bytes(memory.at_rest_bytes);
+  message.set_regions(memory.regions);
+  message.set_regions_at_rest(memory.regions_at_rest);
+}
+
+void fill(const LoadedLayer& layer, control::LoadedLayer& message) {
+  fill(layer.id, *message.mutable_layer());
+  message.set_file(layer.file);
+  message.set_resolution_m(layer.resolution.metres());
+  message.set_voxels_free(layer.voxels.free);
+  message.set_voxels_occupied(layer.voxels.occupied);
+  message.set_retracted(layer.retracted);
+  message.set_out_of_reach(layer.out_of_reach);
+  add_pose(layer.T_fleet_layer, *message.mutable_t_fleet_layer());
 }
 
 }  // namespace
@@ -110,7 +129,10 @@ std::string encode_status(const StatusReport& report) {
   fill(report.ingest, status);
   fill(report.mapper, status);
   fill(report.publishing, *status.mutable_publishing());
-  status.set_layers_loaded(report.publishing.layers_loaded);
+  fill(report.publishing.memory, *status.mutable_layer_memory());
+  status.set_layers_loaded(static_cast<std::uint32_t>(report.publishing.loaded.size()));
+  for (const LoadedLayer& layer : report.publishing.loaded) fill(layer, *status.add_loaded());
+  status.set_poses_refused(report.publishing.poses_refused);
   return framed(response.SerializeAsString());
 }
 
@@ -170,11 +192,13 @@ std::string encode_layer_flushed(const FlushReport& report) {
 
 std::string encode_map_loaded(const LoadedLayer& layer) {
   control::Response response;
-  auto& loaded = *response.mutable_map_loaded();
-  fill(layer.id, *loaded.mutable_layer());
-  loaded.set_resolution_m(layer.resolution.metres());
-  loaded.set_voxels_free(layer.voxels.free);
-  loaded.set_voxels_occupied(layer.voxels.occupied);
+  fill(layer, *response.mutable_map_loaded());
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_loaded_layer(const LoadedLayer& layer) {
+  control::Response response;
+  fill(layer, *response.mutable_loaded_layer());
   return framed(response.SerializeAsString());
 }
 

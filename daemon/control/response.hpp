@@ -29,7 +29,10 @@ std::string encode_map_info(const MapInfoReport& info);
 std::string encode_map_saved(const std::string& path, const SaveReport& report);
 std::string encode_layer_diff(const LayerDiff& diff);
 std::string encode_layer_flushed(const FlushReport& report);
+// To a load.
 std::string encode_map_loaded(const LoadedLayer& layer);
+// To a retraction, a restoration or a move.
+std::string encode_loaded_layer(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);

@@ -110,7 +110,7 @@ void ControlService::load(const LoadOrder& order, const Respond& done) {
   if (!layer) return tell(encode_error(layer.error()));
   const auto shared = std::make_shared<Replica>(std::move(*layer));
   const bool asked = parts_.fleet.ask([order, tell, shared](FleetMap& fleet) {
-    const auto loaded = fleet.load(std::move(*shared));
+    const auto loaded = fleet.load(std::move(*shared), order.path.string());
     if (loaded) log_info("control: loaded " + order.path.string());
     tell(loaded ? encode_map_loaded(*loaded) : encode_error(loaded.error()));
   });
@@ -134,6 +134,30 @@ void ControlService::answer(const FlushOrder&, const Respond& respond) {
     asio::post(parts_.io, [respond, frame = flushed ? encode_layer_flushed(*flushed)
                                                     : encode_error(kNoMapYet)] { respond(frame); });
   });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
+void ControlService::answer(const RetractOrder& order, const Respond& respond) {
+  change_loaded([order](LoadedLayers& loaded) { return loaded.retract(order.layer); }, respond);
+}
+
+void ControlService::answer(const RestoreOrder& order, const Respond& respond) {
+  change_loaded([order](LoadedLayers& loaded) { return loaded.restore(order.layer); }, respond);
+}
+
+void ControlService::answer(const MoveOrder& order, const Respond& respond) {
+  change_loaded([order](LoadedLayers& loaded) { return loaded.move(order.layer, order.shift); },
+                respond);
+}
+
+void ControlService::change_loaded(const LoadedLayersOrder& order, const Respond& respond) {
+  const bool asked = parts_.fleet.ask(
+      [this, order, respond, guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
+        const auto layer = order(fleet.loaded());
+        asio::post(parts_.io,
+                   [respond, frame = layer ? encode_loaded_layer(*layer)
+                                           : encode_error(layer.error())] { respond(frame); });
+      });
   if (!asked) respond(encode_error(kTooBusy));
 }
 

@@ -55,6 +55,11 @@ class ControlService {
   void answer(const LayerDiffQuestion& question, const Respond& respond);
   void answer(const LoadOrder& order, const Respond& respond);
   void answer(const FlushOrder& order, const Respond& respond);
+  void answer(const RetractOrder& order, const Respond& respond);
+  void answer(const RestoreOrder& order, const Respond& respond);
+  void answer(const MoveOrder& order, const Respond& respond);
+  using LoadedLayersOrder = std::function<LoadedLayers::Result(LoadedLayers&)>;
+  void change_loaded(const LoadedLayersOrder& order, const Respond& respond);
   void load(const LoadOrder& order, const Respond& done);
   void save_layer(const SaveOrder& order, const Respond& done);
   void save_merged(const SaveOrder& order, const Respond& done);

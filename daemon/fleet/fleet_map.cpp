@@ -10,23 +10,6 @@
 namespace warren {
 namespace {
 
-const char* text_of(MergeResult result) {
-  switch (result) {
-    case MergeResult::kDone:
-    case MergeResult::kUnknownLayer:
-      break;
-    case MergeResult::kKnownLayer:
-      return "this layer is loaded already";
-    case MergeResult::kBadPose:
-      return "the layer lies too far off, or its pose is not rigid";
-    case MergeResult::kBadResolution:
-      return "the layer's voxels are too much coarser or finer than this map's";
-    case MergeResult::kTooManyLayers:
-      return "too many layers are merged already";
-  }
-  return "the layer cannot be merged";
-}
-
 std::span<const CodedBlock> blocks_of(std::span<const LayerChanges> changes, std::uint32_t number) {
   for (const LayerChanges& layer : changes) {
     if (layer.number == number) return layer.blocks;
@@ -53,7 +36,7 @@ void FleetMap::tick(std::span<const LayerChanges> changes) {
 void FleetMap::rest_quiet_layers() {
   std::size_t left = kRegionsRestedPerTick;
   for (auto& [number, layer] : own_) left -= layer.rest(left);
-  for (auto& [id, layer] : loaded_) left -= rest_quiet_regions(layer.replica, layer.rest, left);
+  loaded_.rest(left);
 }
 
 std::optional<FlushReport> FleetMap::flush() {
@@ -94,41 +77,23 @@ Eigen::Isometry3d FleetMap::T_merge_own(const OwnLayer& layer) const {
 }
 
 void FleetMap::place_layers() {
-  const Eigen::Isometry3d T_merge_fleet = this->T_merge_fleet();
-  const auto differs = [&](const LayerId& id, const Eigen::Isometry3d& T_merge_layer) {
-    const auto [placed, is_new] = T_merge_layer_.try_emplace(id, T_merge_layer);
-    if (!is_new && placed->second.matrix() == T_merge_layer.matrix()) return false;
-    placed->second = T_merge_layer;
-    return true;
-  };
   for (const auto& [number, layer] : own_) {
     const Eigen::Isometry3d T_merge_layer = T_merge_own(layer);
-    if (differs(layer.layer().id(), T_merge_layer)) merge_.move_self_layer(number, T_merge_layer);
+    const auto [placed, is_new] = T_merge_own_.try_emplace(number, T_merge_layer);
+    if (!is_new && placed->second.matrix() == T_merge_layer.matrix()) continue;
+    placed->second = T_merge_layer;
+    if (merge_.move_self_layer(number, T_merge_layer) == MergeResult::kDone) {
+      merge_.restore_self_layer(number);
+    } else {
+      merge_.retract_self_layer(number);
+      ++placements_refused_;
+    }
   }
-  for (const auto& [id, layer] : loaded_) {
-    const Eigen::Isometry3d T_merge_layer = T_merge_fleet * layer.replica.pose().T_fleet_layer();
-    if (differs(id, T_merge_layer)) merge_.move_layer(id, T_merge_layer);
-  }
+  loaded_.place(T_merge_fleet());
 }
 
-tl::expected<LoadedLayer, std::string> FleetMap::load(Replica layer) {
-  const LayerId id = layer.id();
-  if (loaded_.size() == kLoadedLayersMax) {
-    return tl::unexpected(std::string("too many layers are loaded already"));
-  }
-  const Eigen::Isometry3d T_merge_layer = T_merge_fleet() * layer.pose().T_fleet_layer();
-  const auto [kept, is_new] =
-      loaded_.try_emplace(id, Loaded{std::move(layer), RestSchedule(config_.rest_after_ticks)});
-  if (!is_new) return tl::unexpected(std::string(text_of(MergeResult::kKnownLayer)));
-  const Replica& loaded = kept->second.replica;
-  const MergeResult added =
-      merge_.add_layer(id, loaded, loaded.resolution().metres(), T_merge_layer);
-  if (added != MergeResult::kDone) {
-    loaded_.erase(kept);
-    return tl::unexpected(std::string(text_of(added)));
-  }
-  T_merge_layer_.insert_or_assign(id, T_merge_layer);
-  return LoadedLayer{id, loaded.resolution(), counts_of(loaded)};
+LoadedLayers::Result FleetMap::load(Replica layer, std::string file) {
+  return loaded_.add(std::move(layer), std::move(file));
 }
 
 tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& question) {
@@ -136,7 +101,7 @@ tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& q
 }
 
 std::shared_ptr<const MergedSnapshot> FleetMap::merged_snapshot() {
-  if (own_.empty() && loaded_.empty()) return nullptr;
+  if (own_.empty() && loaded_.size() == 0) return nullptr;
   return std::make_shared<const MergedSnapshot>(snapshot_of(merge_, merge_origin_map_));
 }
 
@@ -147,17 +112,36 @@ const Replica* FleetMap::current() const {
 PublishingReport FleetMap::report() const {
   PublishingReport report;
   report.layers = static_cast<std::uint32_t>(own_.size());
-  report.layers_loaded = static_cast<std::uint32_t>(loaded_.size());
+  report.memory = memory();
+  report.loaded = loaded_.list();
+  report.poses_refused = loaded_.poses_refused() + placements_refused_;
   report.ticks = ticks_;
   for (const auto& [number, layer] : own_) {
     report.traffic += layer.traffic();
     report.blocks_held_back += layer.blocks_held_back();
-    report.memory_bytes += layer.layer().memory_bytes();
+    report.poses_refused += layer.layer().pose().refused();
   }
   if (const Replica* const layer = current()) {
     report.current = {layer->id(), layer->holdings().at(0), layer->digest().root()};
   }
   return report;
+}
+
+LayerMemory FleetMap::memory() const {
+  LayerMemory memory;
+  const auto add = [&](const Replica& layer, std::size_t& bytes) {
+    bytes += layer.memory_bytes();
+    memory.at_rest_bytes += layer.bytes_at_rest();
+    memory.regions += layer.regions();
+    memory.regions_at_rest += layer.regions() - layer.regions_awake();
+  };
+  for (const auto& [number, layer] : own_) {
+    add(layer.layer(), memory.own_layers_bytes);
+    memory.own_layers_bytes += layer.held_back_bytes();
+  }
+  loaded_.for_each([&](const Replica& layer) { add(layer, memory.loaded_layers_bytes); });
+  memory.merge_map_bytes = merge_.memory_bytes();
+  return memory;
 }
 
 std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) const {

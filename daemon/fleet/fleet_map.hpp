@@ -16,18 +16,30 @@
 #include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/merge_map.hpp"
 #include "daemon/control/request.hpp"
+#include "daemon/fleet/loaded_layers.hpp"
 #include "daemon/fleet/own_layer.hpp"
 #include "daemon/mapper/layered_map.hpp"
 
 namespace warren {
+
+// All that the fleet thread holds of layers: the sum of the first three.
+struct LayerMemory {
+  std::size_t own_layers_bytes = 0;  // as published, and what is held back
+  std::size_t loaded_layers_bytes = 0;
+  std::size_t merge_map_bytes = 0;
+  std::size_t at_rest_bytes = 0;  // of the first two
+  std::size_t regions = 0;
+  std::size_t regions_at_rest = 0;
+};
 
 // The layers held, in numbers.
 struct PublishingReport {
   std::uint32_t layers = 0;
   DiffTraffic traffic;  // of all layers
   std::uint64_t blocks_held_back = 0;
-  std::size_t memory_bytes = 0;
-  std::uint32_t layers_loaded = 0;
+  LayerMemory memory;
+  std::vector<LoadedLayer> loaded;
+  std::uint64_t poses_refused = 0;  // of layers: not rigid, or out of reach
   std::uint64_t ticks = 0;
   std::uint64_t ticks_late = 0;  // the one before was not done yet
   struct Current {
@@ -54,13 +66,6 @@ struct FlushReport {
   std::uint64_t blocks = 0;  // of all own layers
 };
 
-// A layer of an earlier mission that was loaded from a file: nobody goes on writing it.
-struct LoadedLayer {
-  LayerId id;
-  Resolution resolution;
-  MapCounts voxels;
-};
-
 // A layer as a .layer file holds it.
 struct EncodedLayer {
   std::vector<std::uint8_t> bytes;
@@ -78,7 +83,6 @@ struct FleetMapConfig {
 // newest own layer. One thread: the fleet's.
 class FleetMap {
  public:
-  static constexpr std::size_t kLoadedLayersMax = 64;
   // A region takes some milliseconds.
   static constexpr std::size_t kRegionsRestedPerTick = 8;
   // More than one answer may hold; a follower asks again.
@@ -89,15 +93,19 @@ class FleetMap {
   FleetMap(const FleetMapConfig& config, DrawIncarnation draw_incarnation)
       : config_(config),
         draw_incarnation_(std::move(draw_incarnation)),
-        merge_({config.resolution.metres()}) {}
+        merge_({config.resolution.metres()}),
+        loaded_(merge_, config.rest_after_ticks) {}
+  FleetMap(const FleetMap&) = delete;
+  FleetMap& operator=(const FleetMap&) = delete;
 
   // One tick of all layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back. Nothing before the first scan.
   std::optional<FlushReport> flush();
 
-  // Into the merge-map, where the layer's pose says; or why not, in words for the client.
-  tl::expected<LoadedLayer, std::string> load(Replica layer);
+  // Into the merge-map, where the layer's pose says.
+  LoadedLayers::Result load(Replica layer, std::string file);
+  LoadedLayers& loaded() { return loaded_; }
 
   // The question is about the map frame of the newest own layer, and without gravity. Fills the
   // merge-map's cache.
@@ -112,27 +120,26 @@ class FleetMap {
 
  private:
   OwnLayer& own_layer(const LayerChanges& changes);
+  LayerMemory memory() const;
   const Replica* current() const;
   Eigen::Isometry3d T_merge_fleet() const;
   Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;
-  // Layers that lie elsewhere in the merge-map's frame than before are moved there.
+  // Layers that lie elsewhere in the merge-map's frame than before are moved there; those beyond
+  // its reach are left out of it, and counted.
   void place_layers();
   void rest_quiet_layers();
 
   FleetMapConfig config_;
   DrawIncarnation draw_incarnation_;
   std::map<std::uint32_t, OwnLayer> own_;  // the last is the current one
-  struct Loaded {
-    Replica replica;
-    RestSchedule rest;
-  };
-  std::map<LayerId, Loaded> loaded_;  // the merge-map refers to them
   // The merge-map's key (0, 0, 0) in the map frame: the newest own layer's, so that what is near it
   // has keys. Metres, whole blocks.
   Eigen::Vector3d merge_origin_map_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_map_{0.0, 0.0, -1.0};
   MergeMap merge_;
-  std::map<LayerId, Eigen::Isometry3d> T_merge_layer_;  // as placed
+  std::map<std::uint32_t, Eigen::Isometry3d> T_merge_own_;  // as placed
+  LoadedLayers loaded_;
+  std::uint64_t placements_refused_ = 0;  // of own layers
   std::uint64_t ticks_ = 0;
 };
 

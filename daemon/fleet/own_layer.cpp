@@ -13,9 +13,11 @@ void OwnLayer::tick(std::span<const CodedBlock> changed) {
 }
 
 void OwnLayer::move(const Eigen::Isometry3d& T_fleet_map) {
-  const std::uint32_t revision = layer_.pose().origin().revision;
-  if (revision > 0 && T_fleet_map.matrix() == T_fleet_map_.matrix()) return;
+  if (is_placed_ && T_fleet_map.matrix() == T_fleet_map_.matrix()) return;
+  is_placed_ = true;
   T_fleet_map_ = T_fleet_map;
+  // Beyond a pose's reach the layer keeps the one before, which counts as refused.
+  const std::uint32_t revision = layer_.pose().origin().revision;
   layer_.pose().update_origin({revision + 1, layer_.id().origin, Pose::of(T_fleet_layer())});
 }
 

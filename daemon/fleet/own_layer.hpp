@@ -57,6 +57,7 @@ class OwnLayer {
   Eigen::Isometry3d T_fleet_layer() const { return T_fleet_map_ * T_map_layer_; }
   const DiffTraffic& traffic() const { return traffic_; }
   std::size_t blocks_held_back() const { return publisher_.blocks_held_back(); }
+  std::size_t held_back_bytes() const { return publisher_.memory_bytes(); }
 
  private:
   void publish(std::span<const CodedBlock> blocks);
@@ -64,6 +65,7 @@ class OwnLayer {
   PublishingConfig config_;
   Eigen::Translation3d T_map_layer_;
   Eigen::Isometry3d T_fleet_map_ = Eigen::Isometry3d::Identity();
+  bool is_placed_ = false;
   Replica layer_;
   Publisher publisher_;
   RestSchedule rest_;

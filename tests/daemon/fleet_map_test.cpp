@@ -3,70 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/daemon/small_fleet.hpp"
+
 namespace warren {
-namespace {
 
-const LayerOrigin kFarOrigin{8'000'000, -16'000'000, 8};
-
-FleetMap fleet_map(SenderRules rules = {}) {
-  std::uint64_t drawn = 0;
-  return FleetMap({7, Resolution{}, {rules, 1200, 3}}, [drawn]() mutable { return ++drawn; });
-}
-
-// A floor, one voxel thick, over one block: all of it occupied, with this cost.
-CodedBlock floor_block(const BlockKey& key, CostCode cost) {
-  BlockCodes codes;
-  for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {
-    const VoxelKey in_block = place_of_morton9(place);
-    codes.set(place, in_block.z == 0 ? VoxelCode::occupied(cost, false) : VoxelCode::free());
-  }
-  return {ordinal_of(key), CodeBlock(codes)};
-}
-
-CodedBlock one_free_voxel(const BlockKey& key) {
-  BlockCodes codes;
-  codes.set(0, VoxelCode::free());
-  return {ordinal_of(key), CodeBlock(codes)};
-}
-
-LayerChanges changes_of(std::vector<CodedBlock> blocks, std::uint32_t number = 0) {
-  return {number, kFarOrigin, {}, {0.0, 0.0, -1.0}, std::move(blocks)};
-}
-
-void tick(FleetMap& fleet, std::vector<CodedBlock> blocks) {
-  const std::vector<LayerChanges> changes{changes_of(std::move(blocks))};
-  fleet.tick(changes);
-}
-
-void follow(const FleetMap& fleet, Replica& copy) {
-  const auto diff = fleet.diff({}, copy.holdings().lowest({}));
-  REQUIRE(diff.has_value());
-  REQUIRE(diff->next_key == kOrdinalEnd);
-  for (const auto& packet : diff->packets) {
-    REQUIRE(copy.apply(diff->id, packet) == ApplyResult::kApplied);
-  }
-}
-
-// In the middle of block (x, 0, 0) of the layer, on its floor.
-GroundQuestion question_at(std::int32_t block_x) {
-  GroundQuestion question;
-  question.source = MapSource::kMerge;
-  question.T_map_base.translation =
-      kFarOrigin.position_map(0.1) + Eigen::Vector3d(0.8 * block_x + 0.4, 0.4, 0.1);
-  question.footprint = {0.3, 0.3};
-  return question;
-}
-
-Replica earlier_layer(const std::vector<CodedBlock>& blocks) {
-  Replica layer(LayerId{99, 1, 5});
-  layer.publish(blocks);
-  const Eigen::Vector3d origin = kFarOrigin.position_map(0.1);
-  layer.pose().update_origin({1, 99, {origin, Eigen::Quaterniond::Identity()}});
-  return layer;
-}
-
-}  // namespace
-
+using namespace test;
 TEST_CASE("before the first scan there is no layer to tell of") {
   FleetMap fleet = fleet_map();
   fleet.tick({});
@@ -125,6 +66,65 @@ TEST_CASE("a flush publishes what is held back in all layers, and says in how ma
   CHECK(fleet.flush()->revision == Revision{2});
 }
 
+TEST_CASE("regions that nothing changes are packed, a few at each tick, and wake when changed") {
+  constexpr std::int32_t kRegions = 20;
+  FleetMap fleet = fleet_map({}, 3);
+  std::vector<CodedBlock> blocks;
+  for (std::int32_t x = 0; x < kRegions; ++x) blocks.push_back(floor_block({8 * x, 0, 0}, 1));
+  tick(fleet, blocks);
+  const PublishingReport awake = fleet.report();
+  CHECK(awake.memory.regions == kRegions);
+  for (int ticks = 0; ticks < 2; ++ticks) tick(fleet, {});
+  CHECK(fleet.report().memory.regions_at_rest == 0);
+  for (const std::size_t at_rest : {8, 16, 20, 20}) {
+    tick(fleet, {});
+    CHECK(fleet.report().memory.regions_at_rest == at_rest);
+  }
+  const PublishingReport report = fleet.report();
+  CHECK(report.current->digest == awake.current->digest);
+  CHECK(report.memory.own_layers_bytes < awake.memory.own_layers_bytes);
+  CHECK(report.memory.at_rest_bytes > 0);
+  tick(fleet, {floor_block({0, 0, 0}, 9)});
+  CHECK(fleet.report().memory.regions_at_rest == kRegions - 1);
+  Replica copy(report.current->id);
+  follow(fleet, copy);
+  CHECK(copy.digest().root() == fleet.report().current->digest);
+}
+
+TEST_CASE("frozen and loaded layers are packed too, and read as before") {
+  FleetMap fleet = fleet_map({}, 3);
+  tick(fleet, {floor_block({0, 0, 0}, 15)});
+  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)}), "old.layer").has_value());
+  LayerChanges next = changes_of({floor_block({9, 0, 0}, 1)}, 1);
+  for (int ticks = 0; ticks < 8; ++ticks) {
+    fleet.tick({&next, 1});
+    next.blocks = {floor_block({9, 0, 0}, static_cast<CostCode>(1 + 4 * (ticks % 2)))};
+  }
+  const PublishingReport report = fleet.report();
+  CHECK(report.memory.regions == 3);
+  CHECK(report.memory.regions_at_rest == 2);
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kTooHard);
+}
+
+TEST_CASE("the memory told is that of own layers, loaded ones and the merge-map") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {floor_block({0, 0, 0}, 1)});
+  const LayerMemory own = fleet.report().memory;
+  CHECK(own.own_layers_bytes > 0);
+  CHECK(own.loaded_layers_bytes == 0);
+  CHECK(own.merge_map_bytes > 0);
+  tick(fleet, {one_free_voxel({1, 0, 0})});
+  const LayerMemory holds_back = fleet.report().memory;
+  CHECK(holds_back.own_layers_bytes > own.own_layers_bytes);
+  CHECK(holds_back.merge_map_bytes > own.merge_map_bytes);
+  REQUIRE(fleet.load(earlier_layer({floor_block({2, 0, 0}, 1)}), "old.layer").has_value());
+  const LayerMemory loaded = fleet.report().memory;
+  CHECK(loaded.own_layers_bytes == holds_back.own_layers_bytes);
+  CHECK(loaded.loaded_layers_bytes > 0);
+  CHECK(loaded.merge_map_bytes > holds_back.merge_map_bytes);
+}
+
 TEST_CASE("without sender rules nothing waits") {
   FleetMap fleet = fleet_map({false, false});
   tick(fleet, {one_free_voxel({5, 5, 5})});
@@ -136,27 +136,27 @@ TEST_CASE("an earlier mission's layer is ground where this robot knows nothing, 
   FleetMap fleet = fleet_map();
   tick(fleet, {floor_block({0, 0, 0}, 15)});
   CHECK(fleet.ground(question_at(1))->validity == Validity::kUnknown);
-  const auto loaded =
-      fleet.load(earlier_layer({floor_block({0, 0, 0}, 1), floor_block({1, 0, 0}, 1)}));
+  const auto loaded = fleet.load(
+      earlier_layer({floor_block({0, 0, 0}, 1), floor_block({1, 0, 0}, 1)}), "old.layer");
   REQUIRE(loaded.has_value());
   CHECK(loaded->voxels.occupied == 128);
   CHECK(loaded->voxels.free == 896);
   CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
   CHECK(fleet.ground(question_at(0))->validity == Validity::kTooHard);
-  CHECK(fleet.report().layers_loaded == 1);
+  CHECK(fleet.report().loaded.size() == 1);
 }
 
 TEST_CASE("a layer loaded before the first scan lies where its pose says") {
   FleetMap fleet = fleet_map();
-  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)})).has_value());
+  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)}), "old.layer").has_value());
   tick(fleet, {floor_block({0, 0, 0}, 1)});
   CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
 }
 
 TEST_CASE("loading a layer twice is refused") {
   FleetMap fleet = fleet_map();
-  REQUIRE(fleet.load(earlier_layer({floor_block({0, 0, 0}, 1)})).has_value());
-  const auto again = fleet.load(earlier_layer({floor_block({0, 0, 0}, 1)}));
+  REQUIRE(fleet.load(earlier_layer({floor_block({0, 0, 0}, 1)}), "old.layer").has_value());
+  const auto again = fleet.load(earlier_layer({floor_block({0, 0, 0}, 1)}), "old.layer");
   REQUIRE_FALSE(again.has_value());
   CHECK(again.error().find("already") != std::string::npos);
 }
@@ -202,7 +202,7 @@ TEST_CASE(
 
 TEST_CASE("a correction of the map frame moves the layers of others, not this robot's own") {
   FleetMap fleet = fleet_map();
-  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)})).has_value());
+  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)}), "old.layer").has_value());
   LayerChanges changes = changes_of({floor_block({0, 0, 0}, 1)});
   changes.T_fleet_map.translation = {0.0, 0.8, 0.0};
   fleet.tick({&changes, 1});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <filesystem>
 
 #include <doctest/doctest.h>
@@ -130,6 +131,21 @@ TEST_CASE("a map of an earlier mission is loaded, whatever its format, and count
   CHECK(daemon.status().layers_loaded() == 2);
   const auto again = client.ask(load_request((kept / "old.layer").string()));
   CHECK(again.error().text().find("already") != std::string::npos);
+
+  const control::LoadedLayer first = daemon.status().loaded(0);
+  CHECK(first.file().rfind(kept.string(), 0) == 0);
+  CHECK(first.t_fleet_layer_size() == 7);
+  control::Request request;
+  *request.mutable_map_retract()->mutable_layer() = first.layer();
+  CHECK(client.ask(request).loaded_layer().retracted());
+  CHECK(daemon.status().loaded(0).retracted());
+  *request.mutable_map_restore()->mutable_layer() = first.layer();
+  CHECK_FALSE(client.ask(request).loaded_layer().retracted());
+  *request.mutable_map_move()->mutable_layer() = first.layer();
+  request.mutable_map_move()->set_y_m(2.0);
+  CHECK(client.ask(request).loaded_layer().t_fleet_layer(1) ==
+        doctest::Approx(first.t_fleet_layer(1) + 2.0));
+  CHECK(daemon.status().layer_memory().loaded_layers_bytes() > 0);
   std::filesystem::remove_all(kept);
 }
 
@@ -167,6 +183,15 @@ TEST_CASE("a load that cannot be says why") {
   CHECK(error_of("old.layer").find("absolute") != std::string::npos);
   CHECK(error_of("/nowhere/old.layer").find("/nowhere") != std::string::npos);
   CHECK(error_of("/nowhere/old.ply").find(".layer") != std::string::npos);
+  control::Request none;
+  none.mutable_map_retract();
+  CHECK(client.ask(none).error().text().find("map_retract.layer") != std::string::npos);
+  none.mutable_map_move()->mutable_layer()->set_number(1);
+  CHECK(client.ask(none).error().text().find("no such layer") != std::string::npos);
+  for (const double wrong : {std::nan(""), 2e8}) {
+    none.mutable_map_move()->set_x_m(wrong);
+    CHECK(client.ask(none).error().text().find("1e8 m") != std::string::npos);
+  }
   control::Request past;
   past.mutable_layer_diff()->set_first_key(std::uint64_t{1} << 39);
   CHECK(client.ask(past).error().text().find("first_key") != std::string::npos);

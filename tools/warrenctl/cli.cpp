@@ -16,6 +16,8 @@ struct Options {
   bool merge = false;
   std::string file;
   std::string colours = "height";
+  std::string layer;
+  std::array<double, 4> shift{};  // x y z yaw
   GroundCommand ground;
   std::string other_file;
   std::uint32_t origin = 0;
@@ -49,6 +51,64 @@ CLI::App* add_query(CLI::App& app, Options& options) {
   command->add_flag("--stair-capable", ground.stair_capable, "The robot can climb stairs");
   return command;
 }
+
+// The commands on the map; afterwards, which one was given.
+class MapCommands {
+ public:
+  MapCommands(CLI::App& app, Options& options) : options_(options) {
+    auto* const map = app.add_subcommand("map", "The map of this robot")->require_subcommand(1);
+    info_ = add_with_json(*map, "info", "How large it is and where it lies", options);
+    save_ = map->add_subcommand("save", "Write it to a file");
+    save_->add_option("FILE", options.file, "Ending in .bt, .ot, .ply, .pcd, .png or .layer")
+        ->required();
+    save_
+        ->add_option("--colours", options.colours,
+                     "Of a .png: height, cost of the ground, or robot")
+        ->check(CLI::IsMember({"height", "cost", "robot"}))
+        ->capture_default_str();
+    save_->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
+    load_ = map->add_subcommand("load", "Put a layer of an earlier mission into the merge-map");
+    load_->add_option("FILE", options.file, "Ending in .layer, .bt or .ot")->required();
+    retract_ = add_on_layer(*map, "retract", "Take a loaded layer out of this node's merge-map");
+    restore_ = add_on_layer(*map, "restore", "Put it back");
+    move_ = add_on_layer(*map, "move", "Shift and turn a loaded layer in this node's merge-map");
+    move_
+        ->add_option("SHIFT", options.shift,
+                     "x y z, metres of the fleet frame, and yaw, degrees about the layer's origin; "
+                     "in place of an earlier move: 0 0 0 0 undoes it")
+        ->required();
+  }
+
+  std::optional<CtlCommand> parsed() const {
+    const Options& given = options_;
+    const auto& [x_m, y_m, z_m, yaw_deg] = given.shift;
+    if (info_->parsed()) return MapInfoCommand{given.json};
+    if (save_->parsed()) return MapSaveCommand{given.file, given.colours, given.merge};
+    if (load_->parsed()) return MapLoadCommand{given.file};
+    if (retract_->parsed()) return MapRetractCommand{given.layer};
+    if (restore_->parsed()) return MapRestoreCommand{given.layer};
+    if (move_->parsed()) return MapMoveCommand{given.layer, {x_m, y_m, z_m}, yaw_deg};
+    return std::nullopt;
+  }
+
+ private:
+  CLI::App* add_on_layer(CLI::App& map, const char* name, const char* text) {
+    auto* const command = map.add_subcommand(name, text);
+    command
+        ->add_option("LAYER", options_.layer,
+                     "Its file, or the beginning of its id as status shows it")
+        ->required();
+    return command;
+  }
+
+  Options& options_;
+  CLI::App* info_ = nullptr;
+  CLI::App* save_ = nullptr;
+  CLI::App* load_ = nullptr;
+  CLI::App* retract_ = nullptr;
+  CLI::App* restore_ = nullptr;
+  CLI::App* move_ = nullptr;
+};
 
 // The commands on layer files; afterwards, which one was given.
 class LayerCommands {
@@ -105,18 +165,7 @@ class LayerCommands {
 
 CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const status = add_with_json(app, "status", "What the daemon takes and drops", options);
-  auto* const map = app.add_subcommand("map", "The map of this robot")->require_subcommand(1);
-  auto* const info = add_with_json(*map, "info", "How large it is and where it lies", options);
-  auto* const save = map->add_subcommand("save", "Write it to a file");
-  save->add_option("FILE", options.file, "Ending in .bt, .ot, .ply, .pcd, .png or .layer")
-      ->required();
-  save->add_option("--colours", options.colours, "Of a .png: height, cost of the ground, or robot")
-      ->check(CLI::IsMember({"height", "cost", "robot"}))
-      ->capture_default_str();
-  save->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
-  auto* const load =
-      map->add_subcommand("load", "Put a layer of an earlier mission into the merge-map");
-  load->add_option("FILE", options.file, "Ending in .layer, .bt or .ot")->required();
+  const MapCommands map(app, options);
   auto* const ground = add_query(app, options);
   auto* const config = app.add_subcommand("config", "Configuration")->require_subcommand(1);
   auto* const check = config->add_subcommand("check", "Tell all faults of a file");
@@ -130,11 +179,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
     return ExitCommand{app.exit(error) == 0 ? 0 : kUsageError};
   }
   if (status->parsed()) return StatusCommand{options.json};
-  if (info->parsed()) return MapInfoCommand{options.json};
-  if (save->parsed()) {
-    return MapSaveCommand{options.file, options.colours, options.merge};
-  }
-  if (load->parsed()) return MapLoadCommand{options.file};
+  if (const auto command = map.parsed()) return *command;
   if (ground->parsed()) {
     options.ground.json = options.json;
     return options.ground;

@@ -25,6 +25,18 @@ struct MapSaveCommand {
 struct MapLoadCommand {
   std::filesystem::path file;
 };
+// LAYER is the beginning of a loaded layer's id as status shows it, or its file.
+struct MapRetractCommand {
+  std::string layer;
+};
+struct MapRestoreCommand {
+  std::string layer;
+};
+struct MapMoveCommand {
+  std::string layer;
+  std::array<double, 3> shift_fleet_m{};
+  double yaw_deg = 0.0;
+};
 struct GroundCommand {
   bool on_merge = false;
   std::array<double, 3> position_map_m{};
@@ -46,10 +58,11 @@ struct ConfigPrintCommand {
 struct ExitCommand {  // all is said: help, version, or wrong usage
   int code = 0;
 };
-using CtlCommand = std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand,
-                                ConfigCheckCommand, ConfigPrintCommand, LayerExportCommand,
-                                LayerImportCommand, LayerDiffCommand, LayerDigestCommand,
-                                LayerWatchCommand, LayerFlushCommand, MapLoadCommand, ExitCommand>;
+using CtlCommand =
+    std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
+                 ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
+                 LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
+                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

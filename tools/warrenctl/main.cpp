@@ -9,6 +9,7 @@
 #include "tools/warrenctl/ask.hpp"
 #include "tools/warrenctl/cli.hpp"
 #include "tools/warrenctl/layer_watch.hpp"
+#include "tools/warrenctl/loaded_layer.hpp"
 #include "tools/warrenctl/tables.hpp"
 #include "warren/control.pb.h"
 
@@ -82,8 +83,31 @@ struct Executor {
     control::Request request;
     request.mutable_map_load()->set_path(std::filesystem::absolute(command.file).string());
     return ask_and_show(socket, request, [&](const control::Response& response) {
-      return command.file.string() + ": " + sentence_of(response.map_loaded());
+      return sentence_of(response.map_loaded());
     });
+  }
+  int operator()(const MapRetractCommand& command) const {
+    return ask_about_layer(command.layer,
+                           [](const control::LayerId& id, control::Request& request) {
+                             *request.mutable_map_retract()->mutable_layer() = id;
+                           });
+  }
+  int operator()(const MapRestoreCommand& command) const {
+    return ask_about_layer(command.layer,
+                           [](const control::LayerId& id, control::Request& request) {
+                             *request.mutable_map_restore()->mutable_layer() = id;
+                           });
+  }
+  int operator()(const MapMoveCommand& command) const {
+    return ask_about_layer(command.layer,
+                           [&](const control::LayerId& id, control::Request& request) {
+                             auto& move = *request.mutable_map_move();
+                             *move.mutable_layer() = id;
+                             move.set_x_m(command.shift_fleet_m[0]);
+                             move.set_y_m(command.shift_fleet_m[1]);
+                             move.set_z_m(command.shift_fleet_m[2]);
+                             move.set_yaw_rad(command.yaw_deg * std::numbers::pi / 180.0);
+                           });
   }
   int operator()(const GroundCommand& command) const {
     return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
@@ -113,6 +137,20 @@ struct Executor {
     });
   }
   int operator()(const ExitCommand& command) const { return command.code; }
+
+  template <typename Fill>
+  int ask_about_layer(const std::string& name, const Fill& fill) const {
+    const auto id = find_loaded_layer(socket, name);
+    if (!id) {
+      std::cerr << "warrenctl: " << id.error() << "\n";
+      return kExitFailure;
+    }
+    control::Request request;
+    fill(*id, request);
+    return ask_and_show(socket, request, [](const control::Response& response) {
+      return sentence_of(response.loaded_layer());
+    });
+  }
 };
 
 }  // namespace

@@ -56,6 +56,28 @@ void add_sensors(std::ostream& out, const control::Status& status) {
   }
 }
 
+void add_layers(std::ostream& out, const control::Status& status) {
+  const auto& memory = status.layer_memory();
+  const auto megabytes = [](std::uint64_t bytes) {
+    return static_cast<double>(bytes) / kBytesPerMegabyte;
+  };
+  label(out, "memory of layers") << std::setprecision(1)
+                                 << megabytes(memory.own_layers_bytes() +
+                                              memory.loaded_layers_bytes() +
+                                              memory.merge_map_bytes())
+                                 << " MB: own " << megabytes(memory.own_layers_bytes())
+                                 << ", loaded " << megabytes(memory.loaded_layers_bytes())
+                                 << ", merge-map " << megabytes(memory.merge_map_bytes()) << "; "
+                                 << memory.regions_at_rest() << " of " << memory.regions()
+                                 << " regions rest in " << megabytes(memory.at_rest_bytes())
+                                 << "\n";
+  if (status.poses_refused() > 0) {
+    label(out, "poses refused") << status.poses_refused() << "\n";
+  }
+  label(out, "layers loaded") << status.layers_loaded() << "\n";
+  for (const auto& layer : status.loaded()) out << "  " << sentence_of(layer);
+}
+
 }  // namespace
 
 std::string table_of(const control::Status& status) {
@@ -80,7 +102,7 @@ std::string table_of(const control::Status& status) {
                           << publishing.ticks_late() << " late); revision " << publishing.revision()
                           << ", " << publishing.blocks_held_back()
                           << " blocks hold something back\n";
-  label(out, "layers loaded") << status.layers_loaded() << "\n";
+  add_layers(out, status);
   return out.str() + table_of(status.map());
 }
 
@@ -139,10 +161,25 @@ std::string sentence_of(const control::MapSaved& saved) {
   return out.str();
 }
 
-std::string sentence_of(const control::MapLoaded& loaded) {
+std::string text_of(const control::LayerId& id) {
   std::ostringstream out;
-  out << loaded.voxels_occupied() << " occupied and " << loaded.voxels_free() << " free voxels of "
-      << loaded.resolution_m() << " m are in the merge-map now\n";
+  out << id.origin() << "." << id.number() << "." << std::hex << std::setfill('0') << std::setw(16)
+      << id.incarnation();
+  return out.str();
+}
+
+std::string sentence_of(const control::LoadedLayer& layer) {
+  std::ostringstream out;
+  out << text_of(layer.layer()) << " of " << layer.file() << ": " << layer.voxels_occupied()
+      << " occupied and " << layer.voxels_free() << " free voxels of " << layer.resolution_m()
+      << " m, ";
+  if (layer.retracted()) {
+    out << "retracted";
+  } else {
+    out << (layer.out_of_reach() ? "too far off for the merge-map" : "in the merge-map");
+  }
+  out << "; its origin in the fleet frame: " << listed(layer.t_fleet_layer(), 3)
+      << " (x y z m, qx qy qz qw)\n";
   return out.str();
 }
 

@@ -6,8 +6,9 @@
 namespace warren::control {
 class Ground;
 class LayerFlushed;
+class LayerId;
+class LoadedLayer;
 class MapInfo;
-class MapLoaded;
 class MapSaved;
 class Status;
 }  // namespace warren::control
@@ -23,7 +24,9 @@ std::string table_of(const control::Status& status);
 std::string table_of(const control::MapInfo& info);
 std::string table_of(const control::Ground& ground);
 std::string sentence_of(const control::MapSaved& saved);
-std::string sentence_of(const control::MapLoaded& loaded);
+// ORIGIN.NUMBER.INCARNATION, the last in hexadecimal.
+std::string text_of(const control::LayerId& id);
+std::string sentence_of(const control::LoadedLayer& layer);
 std::string sentence_of(const control::LayerFlushed& flushed);
 // Every field, by its name in the .proto; 64-bit integers are strings, as protobuf's JSON has them.
 std::string json_of(const google::protobuf::Message& message);
