@@ -1,73 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The real programs over real sockets. Usage: end_to_end.sh BIN_DIR SOURCE_DIR CASE
-set -euo pipefail
-bin=$1 source=$2 case=$3
-# Debian's own: another in the PATH lacks Debian's python3-protobuf.
-python=/usr/bin/python3
-work=$(mktemp -d)
-daemon=
-clean_up() {
-  [ -z "$daemon" ] || kill -KILL "$daemon" 2>/dev/null || true
-  rm -rf "$work"
-}
-trap clean_up EXIT
-
-fail() {
-  echo "FAILED: $*" >&2
-  [ ! -f "$work/warrend.log" ] || tail -n 30 "$work/warrend.log" >&2
-  exit 1
-}
-
-start_daemon() { # [QUEUE_SCANS]
-  cat >"$work/robot.yaml" <<YAML
-sockets:
-  ingest:
-    path: $work/ingest.sock
-  control:
-    path: $work/control.sock
-ingest:
-  queue_scans: ${1:-8}
-sensors:
-  - name: lidar
-    max_range_m: 20.0
-YAML
-  "$bin/warrend" --config "$work/robot.yaml" 2>"$work/warrend.log" &
-  daemon=$!
-  for _ in $(seq 300); do
-    [ -S "$work/control.sock" ] && [ -S "$work/ingest.sock" ] && return
-    kill -0 "$daemon" 2>/dev/null || fail "warrend did not start"
-    sleep 0.1
-  done
-  fail "warrend opened no sockets"
-}
-
-stop_daemon() {
-  kill -TERM "$daemon"
-  wait "$daemon" || fail "warrend ended with $?"
-  daemon=
-}
-
-simulate() { # SUBCOMMAND SWEEPS [ARG..]
-  local subcommand=$1 sweeps=$2
-  "$bin/warren-sim" "$subcommand" --world room --seed 3 --seconds "$((sweeps / 10)).$((sweeps % 10))5" \
-    --columns "${columns:-128}" "${@:3}"
-}
-
-scene() { # SWEEPS
-  simulate record "$1" --out "$work/scene" --drivability-spacing 0 2>/dev/null
-}
-
-replay() {
-  "$bin/warren-replay" --clouds "$work/scene/robot-0/clouds" --poses "$work/scene/robot-0/poses.txt" \
-    --socket "$work/ingest.sock" --json "$@" 2>"$work/replay.err"
-}
-
-field() { # NAME < JSON
-  "$python" -c 'import json,sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"
-}
-status() { "$bin/warrenctl" --socket "$work/control.sock" status --json >"$work/status.json"; }
-mapped() { "$python" -c 'import json,sys; m=json.load(open(sys.argv[1]))["map"]; print(m[sys.argv[2]])' "$work/status.json" "$1"; }
+# shellcheck source=tests/tools/end_to_end_parts.sh
+. "$(dirname "$0")/end_to_end_parts.sh"
 
 case_replays_a_recording_without_a_drop() {
   scene 30
@@ -180,72 +115,6 @@ case_the_ground_can_be_asked_about() {
   [ "$(field validity <"$work/far.json")" = unknown ] || fail "$(cat "$work/far.json")"
   "${ctl[@]}" query ground 1000 0 -5 | grep -q 'mean cost *no data' || fail "no table"
   if "${ctl[@]}" query ground 0 0 0 --width 1000 2>/dev/null; then fail "took a footprint of 1 km"; fi
-  stop_daemon
-}
-
-case_layers_go_to_files_and_back() {
-  local layer=("$bin/warrenctl" layer)
-  scene 10
-  start_daemon
-  replay --rate max >/dev/null || fail "replay: $(cat "$work/replay.err")"
-  for ending in bt ot ply; do
-    "$bin/warrenctl" --socket "$work/control.sock" map save "$work/map.$ending" >/dev/null
-  done
-  stop_daemon
-  "${layer[@]}" import "$work/map.bt" "$work/bt.layer" --origin 7 >/dev/null
-  "${layer[@]}" import "$work/map.ot" "$work/ot.layer" --origin 7 >/dev/null
-  "${layer[@]}" diff "$work/bt.layer" "$work/ot.layer" >"$work/same" || fail "differ: $(cat "$work/same")"
-  [ "$("${layer[@]}" digest "$work/bt.layer")" = "$("${layer[@]}" digest "$work/ot.layer")" ] ||
-    fail "equal layers, other digests"
-  [ "$("${layer[@]}" digest "$work/bt.layer" --regions | wc -l)" -gt 1 ] || fail "no regions"
-  [ "$(stat -c %s "$work/bt.layer")" -lt "$(stat -c %s "$work/map.bt")" ] || fail "larger than the tree"
-  for ending in bt ot ply pcd; do
-    "${layer[@]}" export "$work/bt.layer" "$work/out.$ending" >/dev/null
-  done
-  "${layer[@]}" import "$work/out.bt" "$work/again.layer" >/dev/null
-  "${layer[@]}" diff "$work/bt.layer" "$work/again.layer" >/dev/null || fail "lost on the way"
-  [ "$(grep -a '^element vertex' "$work/out.ply")" = "$(grep -a '^element vertex' "$work/map.ply")" ] ||
-    fail "the cloud has other voxels"
-  printf '# Octomap OcTree binary file\nid OcTree\nsize 0\nres 0.1\ndata\n' >"$work/empty.bt"
-  "${layer[@]}" import "$work/empty.bt" "$work/empty.layer" >/dev/null
-  local code=0
-  "${layer[@]}" diff "$work/bt.layer" "$work/empty.layer" --json >"$work/diff.json" || code=$?
-  [ "$code" = 1 ] || fail "exit $code for layers that differ: $(cat "$work/diff.json")"
-  [ "$(field only_in_a <"$work/diff.json")" -gt 10000 ] || fail "$(cat "$work/diff.json")"
-  code=0
-  "${layer[@]}" diff "$work/map.bt" "$work/bt.layer" 2>"$work/err" || code=$?
-  [ "$code" = 2 ] || fail "exit $code for what is no layer"
-  grep -q "no layer file" "$work/err" || fail "$(cat "$work/err")"
-  if "${layer[@]}" export "$work/bt.layer" "$work/out.doc" 2>"$work/err"; then fail "wrote a .doc"; fi
-  grep -q '\.ply or \.pcd' "$work/err" || fail "$(cat "$work/err")"
-}
-
-case_the_layer_is_watched_and_an_earlier_map_loaded() {
-  local ctl=("$bin/warrenctl" --socket "$work/control.sock")
-  scene 10
-  start_daemon
-  "${ctl[@]}" layer watch --seconds 60 >"$work/watched" &
-  local watch=$!
-  replay --rate max >/dev/null || fail "replay: $(cat "$work/replay.err")"
-  for _ in $(seq 300); do
-    "${ctl[@]}" status --json | grep -q '"revision": 0,' || break
-    sleep 0.1
-  done
-  "${ctl[@]}" map save "$work/old.layer" >/dev/null
-  "${ctl[@]}" map save "$work/old.bt" >/dev/null
-  sleep 2 # until the watch has asked once more
-  stop_daemon
-  wait "$watch" || fail "watch ended with $?: $(cat "$work/watched")"
-  grep -qE 'in all [0-9]+ s: diff-maps [0-9.]+ kB/s, .* \([0-9.]+ times\)' "$work/watched" ||
-    fail "watched: $(cat "$work/watched")"
-  start_daemon
-  "${ctl[@]}" map load "$work/old.bt" >"$work/loaded"
-  grep -qE '[1-9][0-9]* occupied' "$work/loaded" || fail "$(cat "$work/loaded")"
-  "${ctl[@]}" map load "$work/old.layer" >/dev/null
-  if "${ctl[@]}" map load "$work/old.layer" 2>"$work/err"; then fail "loaded twice"; fi
-  grep -q already "$work/err" || fail "$(cat "$work/err")"
-  "${ctl[@]}" map save "$work/merged.ply" --merge --colours robot >/dev/null
-  grep -aq 'comment source 1' "$work/merged.ply" || fail "no sources in the cloud"
   stop_daemon
 }
 
