@@ -49,8 +49,7 @@ struct EncodeRequest {
 // call it; copies change by packets, which arrive in any order, twice or never.
 class Replica {
  public:
-  explicit Replica(const LayerId& id, Resolution resolution = {})
-      : id_(id), resolution_(resolution) {}
+  Replica(const LayerId& id, Resolution resolution) : id_(id), resolution_(resolution) {}
   // As it was stored. What changed when within a block is forgotten.
   Replica(const LayerId& id, Resolution resolution, const Holdings& holdings,
           std::span<const StoredBlock> blocks);

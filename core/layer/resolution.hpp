@@ -40,4 +40,7 @@ class Resolution {
   std::uint32_t micrometres_ = 100'000;
 };
 
+// What maps have unless told otherwise: 0.1 m.
+inline constexpr Resolution kDefaultResolution{};
+
 }  // namespace warren

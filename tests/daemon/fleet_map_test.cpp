@@ -21,7 +21,7 @@ TEST_CASE("a tick that changes something is one revision, and its diff makes cop
   tick(fleet, {floor_block({0, 0, 0}, 1)});
   const LayerId id = fleet.report().current->id;
   CHECK(id.origin == 7);
-  Replica copy(id);
+  Replica copy(id, kDefaultResolution);
   follow(fleet, copy);
   tick(fleet, {floor_block({0, 0, 0}, 9), floor_block({1, 0, 0}, 2)});
   tick(fleet, {});
@@ -59,7 +59,7 @@ TEST_CASE("a flush publishes what is held back in all layers, and says in how ma
   CHECK(flushed->revision == Revision{2});
   CHECK(flushed->layer == fleet.report().current->id);
   CHECK(fleet.report().blocks_held_back == 0);
-  Replica copy(flushed->layer);
+  Replica copy(flushed->layer, kDefaultResolution);
   follow(fleet, copy);
   CHECK(copy.codes(ordinal_of({6, 5, 5})) == one_free_voxel({6, 5, 5}).codes);
   CHECK(fleet.flush()->blocks == 0);
@@ -86,7 +86,7 @@ TEST_CASE("regions that nothing changes are packed, a few at each tick, and wake
   CHECK(report.memory.at_rest_bytes > 0);
   tick(fleet, {floor_block({0, 0, 0}, 9)});
   CHECK(fleet.report().memory.regions_at_rest == kRegions - 1);
-  Replica copy(report.current->id);
+  Replica copy(report.current->id, kDefaultResolution);
   follow(fleet, copy);
   CHECK(copy.digest().root() == fleet.report().current->digest);
 }

@@ -64,7 +64,7 @@ TEST_CASE("a follower's copy and a saved layer have the digest that the daemon t
   const auto diff = client.ask(request).layer_diff();
   CHECK(diff.resolution_um() == 100'000);
   const LayerId id{diff.layer().origin(), diff.layer().number(), diff.layer().incarnation()};
-  Replica copy(id);
+  Replica copy(id, kDefaultResolution);
   for (const std::string& packet : diff.packets()) {
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(packet.data());
     CHECK(copy.apply(id, {bytes, packet.size()}) == ApplyResult::kApplied);

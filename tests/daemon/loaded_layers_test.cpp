@@ -24,7 +24,7 @@ Voxels merged(FleetMap& fleet) {
 }
 
 Replica far_layer(const Eigen::Vector3d& origin_fleet) {
-  Replica layer(LayerId{99, 2, 6});
+  Replica layer(LayerId{99, 2, 6}, kDefaultResolution);
   layer.publish({{floor_block({0, 0, 0}, 1)}});
   layer.pose().update_origin({1, 99, {origin_fleet, Eigen::Quaterniond::Identity()}});
   return layer;

@@ -64,7 +64,7 @@ inline GroundQuestion question_at(std::int32_t block_x) {
 }
 
 inline Replica earlier_layer(const std::vector<CodedBlock>& blocks) {
-  Replica layer(LayerId{99, 1, 5});
+  Replica layer(LayerId{99, 1, 5}, kDefaultResolution);
   layer.publish(blocks);
   const Eigen::Vector3d origin = kFarOrigin.position_map(0.1);
   layer.pose().update_origin({1, 99, {origin, Eigen::Quaterniond::Identity()}});

@@ -16,15 +16,15 @@ Replica partly_filled() {
   BlockCodes codes;
   for (std::uint32_t place = 0; place < 100; ++place) codes.set(place, VoxelCode::free());
   codes.set(100, VoxelCode::occupied(3, true));
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   origin.publish({{CodedBlock{0, CodeBlock(codes)}, CodedBlock{700, CodeBlock(codes)}}});
-  Replica replica(kLayer);
+  Replica replica(kLayer, kDefaultResolution);
   replica.apply(kLayer, origin.encode({{0, 1000}, {}})->bytes);
   return replica;
 }
 
 void check_told_again(const Replica& replica) {
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   KeyInterval keys;
   std::size_t packets = 0;
   while (const auto packet = replica.encode({keys, {}})) {

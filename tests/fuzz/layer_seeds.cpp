@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(packets);
   std::filesystem::create_directories(layers);
 
-  Replica layer(kLayer);
+  Replica layer(kLayer, kDefaultResolution);
   write_layer_seed(layers / "empty", layer);
   layer.publish(
       {{CodedBlock{5, CodeBlock(floor_codes())}, CodedBlock{6, CodeBlock(floor_codes())}}});
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   write(packets / "all", layer.encode({{}, {}})->bytes);
   write_layer_seed(layers / "whole", layer);
 
-  Replica partial(kLayer);
+  Replica partial(kLayer, kDefaultResolution);
   partial.apply(kLayer, layer.encode({{100, 800}, {}})->bytes);
   partial.pose().update_origin({1, 1, Pose{{1.0, 2.0, 3.0}, Eigen::Quaterniond::Identity()}});
   write_layer_seed(layers / "partial", partial);

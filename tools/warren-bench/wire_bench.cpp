@@ -20,7 +20,7 @@ double bytes_per(const Replica& layer, std::uint64_t voxels) {
 bool measure_snapshot(const Replica& origin, const WireOptions& options, WireResult& result) {
   const auto packets = sweep(origin, {}, options.packet_bytes);
   result.snapshot = {bytes_of(packets), packets.size()};
-  Replica bulk(origin.id());
+  Replica bulk(origin.id(), origin.resolution());
   if (!apply_all(bulk, packets) || !same_blocks(origin, bulk)) return false;
   result.memory_bulk_copy = bytes_per(bulk, result.voxels_known);
   return true;
@@ -53,8 +53,8 @@ tl::expected<WireResult, std::string> bench_wire(const ScanSequence& sequence,
   result.scans_per_tick = tape.scans_per_tick;
   result.publish_share = tape.publish_share;
 
-  Replica origin(kLayer);
-  Replica copy(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
+  Replica copy(kLayer, kDefaultResolution);
   const auto live = run_live(tape, options, origin, copy);
   if (!live) return not_equal("exact codes");
   result.live = *live;

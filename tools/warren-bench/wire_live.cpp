@@ -76,8 +76,8 @@ std::optional<RulesResult> run_with_rules(const WireTape& tape, const WireOption
                                           const Replica& exact) {
   RulesResult result;
   Publisher publisher;
-  Replica origin(exact.id());
-  Replica copy(exact.id());
+  Replica origin(exact.id(), exact.resolution());
+  Replica copy(exact.id(), exact.resolution());
   const auto publish = [&](const std::vector<CodedBlock>& blocks, WireTraffic& traffic) {
     const Revision from = origin.holdings().at(0);
     origin.publish(blocks);

@@ -120,7 +120,7 @@ Ticks merge_ticks(const Ticks& ticks, std::size_t count) {
 
 void send_ticks(const Ticks& ticks, const SenderRules& rules, bool snapshot,
                 const PacketSink& sink) {
-  Replica layer(LayerId{1, 1, 1});
+  Replica layer(LayerId{1, 1, 1}, kDefaultResolution);
   Publisher publisher(rules);
   const auto send_since = [&](Revision from) {
     for_each_packet(layer, {{}, from}, [&](const DiffPacket& packet) {

@@ -111,8 +111,8 @@ TEST_CASE("a layer comes back from its file as it was, whole or partial") {
 }
 
 TEST_CASE("a layer with as many intervals as there may be comes back") {
-  Replica origin(kLayer);
-  Replica copy(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
+  Replica copy(kLayer, kDefaultResolution);
   Random random(1);
   for (BlockOrdinal i = Holdings::kIntervalsMax; i > 0; --i) {
     std::vector<CodedBlock> changes;

@@ -27,7 +27,7 @@ class MergedRooms {
   }
 
   void add_room(const LayerId& id, const Eigen::Vector3d& place_m) {
-    replicas_.emplace_back(id).publish(room_blocks());
+    replicas_.emplace_back(id, kDefaultResolution).publish(room_blocks());
     const Eigen::Isometry3d T_merge_layer(Eigen::Translation3d{place_m});
     REQUIRE(map_.add_layer(id, replicas_.back(), kResolution_m, T_merge_layer) ==
             MergeResult::kDone);

@@ -32,7 +32,7 @@ Replica random_layer(std::uint64_t seed) {
     for (std::uint32_t place = 0; place < filled; ++place) codes.set(place, fill);
     if (any(codes.known)) blocks.push_back({block, CodeBlock(codes)});
   }
-  Replica layer(kLayer);
+  Replica layer(kLayer, kDefaultResolution);
   layer.publish(blocks);
   return layer;
 }
@@ -118,7 +118,7 @@ TEST_CASE("only equal codes are pruned, costs are never averaged, and unknown st
     codes.set(place, VoxelCode::occupied(place == 9 ? CostCode{2} : CostCode{1}, false));
   }
   for (std::uint32_t place = 64; place < 71; ++place) codes.set(place, VoxelCode::free());
-  Replica layer(kLayer);
+  Replica layer(kLayer, kDefaultResolution);
   layer.publish({{CodedBlock{0, CodeBlock(codes)}}});
   const CodeOctree tree(layer);
   const VoxelKey corner{kKeyMin, kKeyMin, kKeyMin};
@@ -144,7 +144,7 @@ TEST_CASE("what has no cost data never passes for easy ground") {
 }
 
 TEST_CASE("a layer of which nothing is known has no leaves") {
-  const Replica layer(kLayer);
+  const Replica layer(kLayer, kDefaultResolution);
   CodeOctree(layer).for_each_leaf(0, [](const CodeNode&) { FAIL("a leaf"); });
   CHECK(CodeOctree(layer).node({0, 0, 0}, 16).code == VoxelCode{});
 }

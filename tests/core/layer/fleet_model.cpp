@@ -35,7 +35,7 @@ FleetModel::FleetModel(const FleetPlan& plan) : plan_(plan), random_(plan.seed) 
     blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
   }
   for (std::uint32_t count = 2 + below(random_, 4); count > 0; --count) {
-    nodes_.emplace_back(LayerId{1, 1, plan_.seed});
+    nodes_.emplace_back(LayerId{1, 1, plan_.seed}, kDefaultResolution);
   }
   history_.emplace_back(blocks_.size());
 }
@@ -121,7 +121,7 @@ bool FleetModel::trouble() {
       regions_rested_ += node.rest(until, 1 + below(random_, 20));
     }
   } else if (dice < 88) {
-    copy = Replica(nodes_[0].id());
+    copy = Replica(nodes_[0].id(), kDefaultResolution);
   } else if (dice < 92 && !plan_.narrow) {
     lose_origin_disk();
   } else if (plan_.fault == Fault::kReusesRevision) {
@@ -131,16 +131,16 @@ bool FleetModel::trouble() {
 }
 
 void FleetModel::restart(Replica& replica) {
-  replica = Replica(replica.id(), {}, replica.holdings(), stored(replica));
+  replica = Replica(replica.id(), replica.resolution(), replica.holdings(), stored(replica));
 }
 
 void FleetModel::lose_origin_disk() {
   LayerId id = nodes_[0].id();
   if (plan_.fault != Fault::kReusesLayerId) {
     ++id.incarnation;
-    for (Replica& node : nodes_) node = Replica(id);
+    for (Replica& node : nodes_) node = Replica(id, kDefaultResolution);
   }
-  nodes_[0] = Replica(id);
+  nodes_[0] = Replica(id, kDefaultResolution);
   history_.assign(1, Row(blocks_.size()));
   publish();
 }
@@ -153,7 +153,7 @@ void FleetModel::lose_last_tick() {
   for (std::size_t i = 0; i < blocks_.size() && last.number > 0; ++i) {
     blocks.push_back({blocks_[i], last, history_.back()[i]});
   }
-  nodes_[0] = Replica(nodes_[0].id(), {}, Holdings(last), blocks);
+  nodes_[0] = Replica(nodes_[0].id(), nodes_[0].resolution(), Holdings(last), blocks);
   publish();
 }
 
@@ -163,7 +163,7 @@ void FleetModel::lower_held(Replica& replica) {
   const Revision lowered{1 + below(random_, held.number - 1)};
   std::vector<StoredBlock> blocks = stored(replica);
   for (StoredBlock& block : blocks) block.changed_at = std::min(block.changed_at, lowered);
-  replica = Replica(replica.id(), {}, Holdings(lowered), blocks);
+  replica = Replica(replica.id(), replica.resolution(), Holdings(lowered), blocks);
 }
 
 // Plants the fault, or what is allowed: a mask that holds more than needed.

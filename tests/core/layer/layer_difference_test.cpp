@@ -14,7 +14,7 @@ namespace {
 constexpr BlockOrdinal kBlocks = 1500;
 
 Replica layer_of(const std::vector<BlockCodes>& blocks) {
-  Replica layer({1, 1, 1});
+  Replica layer({1, 1, 1}, kDefaultResolution);
   std::vector<CodedBlock> coded;
   for (BlockOrdinal block = 0; block < blocks.size(); ++block) {
     coded.push_back({block, CodeBlock(blocks[block])});

@@ -30,7 +30,7 @@ CodedBlock block_with(VoxelCode code, const VoxelKey& key = kVoxel) {
 }
 
 Replica layer_with(const LayerId& id, VoxelCode code) {
-  Replica layer(id);
+  Replica layer(id, kDefaultResolution);
   layer.publish({{block_with(code)}});
   return layer;
 }
@@ -132,7 +132,7 @@ TEST_CASE("a layer retracted leaves what it would be had it never been merged") 
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     test::Random random(seed);
     const auto layer = [&](const LayerId& id) {
-      Replica replica(id);
+      Replica replica(id, kDefaultResolution);
       std::vector<CodedBlock> blocks;
       for (std::int32_t x = -1; x <= 1; ++x) {
         blocks.push_back({ordinal_of({x, 0, 0}), CodeBlock(test::random_codes(random, 40))});
@@ -176,7 +176,7 @@ TEST_CASE("the newest word counts if so configured, and the lower id of equally 
 }
 
 TEST_CASE("a layer that reaches out of the key space is cut there, and counted") {
-  Replica layer(kFirst);
+  Replica layer(kFirst, kDefaultResolution);
   const VoxelKey last{kKeyMax, 0, 0};
   const VoxelCode code = VoxelCode::occupied(5, false);
   layer.publish({{block_with(code, last), block_with(code, {0, 0, 0})}});
@@ -248,7 +248,7 @@ TEST_CASE("where more than two layers make a block each voxel still tells of its
   std::vector<std::unique_ptr<Replica>> layers;
   for (std::uint32_t x = 0; x < kBlockEdge; ++x) {
     const VoxelKey key{static_cast<std::int32_t>(x), 0, 0};
-    layers.push_back(std::make_unique<Replica>(LayerId{x + 1, 1, 1}));
+    layers.push_back(std::make_unique<Replica>(LayerId{x + 1, 1, 1}, kDefaultResolution));
     layers.back()->publish(
         {{block_with(VoxelCode::occupied(static_cast<CostCode>(x), false), key)}});
     REQUIRE(map.add_layer(layers.back()->id(), *layers.back(), kResolution_m, kHere) ==

@@ -29,7 +29,7 @@ CodedBlock block_with(VoxelCode code, const VoxelKey& key = kVoxel) {
 
 TEST_CASE("packets in another order or twice give the same merge-map") {
   test::Random random(5);
-  Replica origin(kFirst);
+  Replica origin(kFirst, kDefaultResolution);
   std::vector<DiffPacket> packets;
   for (int tick = 0; tick < 6; ++tick) {
     const Revision before = origin.holdings().at(0);
@@ -49,7 +49,7 @@ TEST_CASE("packets in another order or twice give the same merge-map") {
   MergePeer straight(kFirst, kResolution_m);
   straight.catch_up(origin);
   for (int again = 0; again < 10; ++again) {
-    Replica replica(kFirst);
+    Replica replica(kFirst, kDefaultResolution);
     MergeMap map({kResolution_m});
     REQUIRE(map.add_layer(kFirst, replica, kResolution_m, kHere) == MergeResult::kDone);
     while (replica.holdings() != origin.holdings()) {
@@ -64,7 +64,7 @@ TEST_CASE("packets in another order or twice give the same merge-map") {
 }
 
 TEST_CASE("a robot that stops has its last part with its peers, however small") {
-  Replica origin(kFirst);
+  Replica origin(kFirst, kDefaultResolution);
   MergePeer peer(kFirst, kResolution_m);
   origin.publish({{block_with(VoxelCode::occupied(3, false))}});
   peer.catch_up(origin);
@@ -79,7 +79,7 @@ TEST_CASE("a robot that restarts goes on with its layer, and its peers follow") 
   std::vector<StoredBlock> stored;
   Holdings holdings;
   {
-    Replica origin(kFirst);
+    Replica origin(kFirst, kDefaultResolution);
     origin.publish({{block_with(VoxelCode::occupied(3, false))}});
     origin.publish({{block_with(VoxelCode::occupied(4, false))}});
     peer.catch_up(origin);
@@ -89,7 +89,7 @@ TEST_CASE("a robot that restarts goes on with its layer, and its peers follow") 
       return true;
     });
   }
-  Replica restarted(kFirst, {}, holdings, stored);
+  Replica restarted(kFirst, kDefaultResolution, holdings, stored);
   CHECK(restarted.publish({{block_with(VoxelCode::occupied(9, true))}}) == Revision{3});
   peer.catch_up(restarted);
   CHECK(peer.map().voxel(kVoxel).code == VoxelCode::occupied(9, true));

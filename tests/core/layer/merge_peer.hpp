@@ -16,7 +16,8 @@ namespace warren::test {
 class MergePeer {
  public:
   MergePeer(const LayerId& id, double resolution_m)
-      : replica_(std::make_unique<Replica>(id)), map_({resolution_m}) {
+      : replica_(std::make_unique<Replica>(id, *Resolution::from_metres(resolution_m))),
+        map_({resolution_m}) {
     REQUIRE(map_.add_layer(id, *replica_, resolution_m, Eigen::Isometry3d::Identity()) ==
             MergeResult::kDone);
   }

@@ -49,7 +49,7 @@ TEST_CASE("a person who walked on is gone from the merge-map of a peer fed by pa
   const auto nobody = test::scan_room(empty, lidar, kSensor, 1);
 
   SelfMap self(SelfMapConfig{});
-  Replica layer(kOrigin);
+  Replica layer(kOrigin, kDefaultResolution);
   MergePeer peer(kOrigin, self.lattice().resolution_m());
   std::uint32_t cursor = 0;
   const auto tick = [&](const test::SimulatedScan& scan) {

@@ -54,7 +54,7 @@ VoxelCode code_of(float cost) {
 
 // The merge-map of one who got this floor from another by packets.
 MergePeer peer_with(const std::vector<CodedBlock>& blocks) {
-  Replica origin(kOther);
+  Replica origin(kOther, kDefaultResolution);
   origin.publish(blocks);
   MergePeer peer(kOther, kResolution_m);
   peer.catch_up(origin);
@@ -109,7 +109,7 @@ TEST_CASE("who got every diff has all costs on the same side of the planner's li
     scan.points_layer.push_back({0.1F * static_cast<float>(x) + 0.05F, 0.05F, 0.05F});
   }
   SelfMap map(SelfMapConfig{});
-  Replica origin(kOther);
+  Replica origin(kOther, kDefaultResolution);
   MergePeer peer(kOther, kResolution_m);
   std::uint32_t cursor = 0;
   for (int tick = 0; tick < 20; ++tick) {
@@ -138,7 +138,7 @@ TEST_CASE("who got every diff has all costs on the same side of the planner's li
 
 TEST_CASE("stairs on voxels known from others alone are stairs, and come and go by themselves") {
   const VoxelCode step = VoxelCode::occupied(15, true);
-  Replica origin(kOther);
+  Replica origin(kOther, kDefaultResolution);
   MergePeer peer(kOther, kResolution_m);
   const MergeView view(peer.map());
   for (const VoxelCode code : {VoxelCode::occupied(15, false), step, code_of(0.5F)}) {

@@ -25,7 +25,8 @@ MergeWorld::MergeWorld(std::uint64_t seed, MergeRule rule, std::size_t cached_bl
     layer.resolution_m = resolutions_m[below(random_, 6)];
     layer.T_merge_layer = random_pose(layer.resolution_m);
     layers_.emplace(other(origin), layer);
-    foreign_[other(origin)].replica = std::make_unique<Replica>(other(origin).layer);
+    foreign_[other(origin)].replica =
+        std::make_unique<Replica>(other(origin).layer, kDefaultResolution);
   }
   for (std::uint32_t number = 1; number <= 2; ++number) {
     OracleLayer layer;

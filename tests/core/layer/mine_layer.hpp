@@ -28,7 +28,7 @@ inline VoxelCode mine_code(const VoxelKey& key, std::uint32_t noise) {
 
 inline Replica mine_layer(const LayerId& id, std::int32_t length_blocks) {
   Random random(5);
-  Replica layer(id);
+  Replica layer(id, kDefaultResolution);
   for (std::int32_t x = 0; x < length_blocks; ++x) {
     std::vector<CodedBlock> slice;
     for (std::int32_t y = -12; y < 12; ++y) {

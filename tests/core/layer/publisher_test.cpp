@@ -54,7 +54,7 @@ void check_published(const SelfMap& map, const Replica& layer) {
 
 TEST_CASE("after each tick the layer is what the self-map's voxels encode to") {
   SelfMap map(SelfMapConfig{});
-  Replica layer(LayerId{1, 1, 1});
+  Replica layer(LayerId{1, 1, 1}, kDefaultResolution);
   std::uint32_t cursor = 0;
   std::uint32_t ticks = 0;
   for (const auto& scan : test::walk_through_room(test::Room{}, test::Lidar{}, 8)) {

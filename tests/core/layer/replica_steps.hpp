@@ -56,7 +56,7 @@ inline Replica noisy_layer(std::size_t blocks) {
   for (std::size_t i = 0; i < blocks; ++i) {
     changes.push_back({random() % kOrdinalEnd, CodeBlock(random_codes(random))});
   }
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, changes);
   return origin;
 }

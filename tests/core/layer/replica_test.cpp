@@ -13,7 +13,7 @@ using namespace warren;
 using namespace warren::test;
 
 TEST_CASE("a tick without changes is no revision") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   CHECK(origin.publish({}) == Revision{0});
   const auto block = block_with(5, 3, VoxelCode::free());
   CHECK(origin.publish({{block}}) == Revision{1});
@@ -23,8 +23,8 @@ TEST_CASE("a tick without changes is no revision") {
 }
 
 TEST_CASE("a change of a cost or of a stair alone is told") {
-  Replica origin(kLayer);
-  Replica copy(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
+  Replica copy(kLayer, kDefaultResolution);
   for (const auto& [cost, stair] : {std::pair{3, false}, {4, false}, {4, true}, {0, true}}) {
     const auto code = VoxelCode::occupied(static_cast<CostCode>(cost), stair);
     publish(origin, {block_with(9, 100, code)});
@@ -34,14 +34,14 @@ TEST_CASE("a change of a cost or of a stair alone is told") {
 }
 
 TEST_CASE("a packet is news once, and a gap until what it builds on is held") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, {block_with(9, 1, VoxelCode::free())});
   const DiffPacket first = encoded(origin, 0);
   publish(origin, {block_with(9, 2, VoxelCode::free())});
   const DiffPacket second = encoded(origin, 1);
   const DiffPacket both = encoded(origin, 0);
 
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   CHECK(apply(copy, second) == ApplyResult::kGap);
   CHECK(apply(copy, first) == ApplyResult::kApplied);
   CHECK(apply(copy, first) == ApplyResult::kDuplicate);
@@ -52,9 +52,9 @@ TEST_CASE("a packet is news once, and a gap until what it builds on is held") {
 }
 
 TEST_CASE("silence about a block is knowledge") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, {block_with(9, 1, VoxelCode::free())});
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   const DiffPacket nothing = encoded(origin, 0, {100, 200});
   CHECK(nothing.bytes.size() < 16);
   CHECK(apply(copy, nothing) == ApplyResult::kApplied);
@@ -67,7 +67,7 @@ TEST_CASE("the packets of one tick tile the key space and keep to their limit") 
   for (const std::size_t limit : {std::size_t{440}, std::size_t{1200}}) {
     const auto packets = encode_all(origin, {}, limit);
     CHECK(packets.size() > 20);
-    Replica copy(kLayer);
+    Replica copy(kLayer, kDefaultResolution);
     BlockOrdinal next = 0;
     for (const DiffPacket& packet : packets) {
       CHECK(packet.bytes.size() <= limit);
@@ -85,22 +85,22 @@ TEST_CASE("the packets of one tick tile the key space and keep to their limit") 
 }
 
 TEST_CASE("an emptied block is emptied at every copy, and passed on by them") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, {block_with(9, 1, VoxelCode::occupied(3, false))});
-  Replica late(kLayer);
+  Replica late(kLayer, kDefaultResolution);
   CHECK(apply(late, encoded(origin, 0)) == ApplyResult::kApplied);
   publish(origin, {{9, {}}});
-  Replica relay(kLayer);
+  Replica relay(kLayer, kDefaultResolution);
   CHECK(apply(relay, encoded(origin, 0)) == ApplyResult::kApplied);
   CHECK(apply(late, encoded(relay, 1)) == ApplyResult::kApplied);
   CHECK(late.find(9)->codes.empty());
 }
 
 TEST_CASE("a relay tells no more of a block than changed since, though it was fed in bulk") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, {block_with(9, 1, VoxelCode::free())});
   publish(origin, {block_with(5000, 1, VoxelCode::free())});
-  Replica relay(kLayer);
+  Replica relay(kLayer, kDefaultResolution);
   CHECK(apply(relay, encoded(origin, 0)) == ApplyResult::kApplied);
   std::vector<BlockOrdinal> told;
   relay.for_each_changed({}, {1}, [&](BlockOrdinal block, const LayerBlock&) {
@@ -111,7 +111,7 @@ TEST_CASE("a relay tells no more of a block than changed since, though it was fe
 }
 
 TEST_CASE("regions are found by their latest change") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   const auto free = VoxelCode::free();
   publish(origin, {block_with(100, 1, free), block_with(600, 1, free), block_with(2000, 1, free)});
   publish(origin, {block_with(600, 2, free)});
@@ -126,7 +126,7 @@ TEST_CASE("regions are found by their latest change") {
 }
 
 TEST_CASE("many regions are told in key order, few changed ones without looking at the rest") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   std::vector<CodedBlock> everywhere;
   for (BlockOrdinal region = 0; region < 700; ++region) {
     everywhere.push_back(block_with(region << 9 | 7, 1, VoxelCode::free()));
@@ -150,7 +150,7 @@ TEST_CASE("many regions are told in key order, few changed ones without looking 
 
 TEST_CASE("forgotten blocks are empty, not held, and can be had again") {
   const Replica origin = noisy_layer(50);
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
   const std::size_t full = copy.memory_bytes();
   const KeyInterval half{kOrdinalEnd / 4, kOrdinalEnd / 2};
@@ -180,18 +180,18 @@ TEST_CASE("a copy takes at most 2.5 bytes per known voxel") {
       changes.push_back({ordinal_of({x, y, 0}), CodeBlock(codes)});
     }
   }
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, changes);
   CHECK(origin.memory_bytes() < known * 5 / 2);
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
   CHECK(copy.memory_bytes() < known * 5 / 2);
 }
 
 TEST_CASE("whoever asked is told of blocks whose codes changed, once all is done") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   publish(origin, {block_with(9, 1, VoxelCode::free()), block_with(700, 1, VoxelCode::free())});
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   std::vector<BlockOrdinal> told;
   copy.on_change([&](BlockOrdinal block) {
     told.push_back(block);
@@ -208,7 +208,7 @@ TEST_CASE("whoever asked is told of blocks whose codes changed, once all is done
 }
 
 TEST_CASE("the origin's listener hears of what it publishes, and of what is forgotten") {
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   std::vector<BlockOrdinal> told;
   origin.on_change([&](BlockOrdinal block) { told.push_back(block); });
   publish(origin, {block_with(9, 1, VoxelCode::free()), block_with(700, 1, VoxelCode::free())});
@@ -223,7 +223,7 @@ TEST_CASE("the origin's listener hears of what it publishes, and of what is forg
 TEST_CASE("two replicas that differ walk down their digests to the block") {
   const Replica origin = noisy_layer(300);
   for (const bool rested : {false, true}) {
-    Replica copy(kLayer);
+    Replica copy(kLayer, kDefaultResolution);
     for (const auto& packet : encode_all(origin, {}, 1200)) apply(copy, packet);
     const BlockOrdinal altered = copy.digest_blocks(copy.digest().regions()[5].ordinal)[0].ordinal;
     BlockCodes codes = copy.find(altered)->codes.unpack();

@@ -70,13 +70,13 @@ TEST_CASE("rest changes nothing that can be read, told, or hashed") {
   }
   CHECK(layer.find(kOrdinalEnd - 1) == nullptr);
 
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   for (const auto& packet : encode_all(layer, {})) copy.apply(kLayer, packet.bytes);
   CHECK(copy.digest().root() == root);
 }
 
 TEST_CASE("the longest unchanged regions are laid to rest first, and only so many at once") {
-  Replica layer(kLayer);
+  Replica layer(kLayer, kDefaultResolution);
   const auto block = [](BlockOrdinal region, std::uint32_t place) {
     BlockCodes codes;
     codes.set(place, VoxelCode::free());

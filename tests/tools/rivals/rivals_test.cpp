@@ -90,7 +90,7 @@ TEST_CASE("changed voxels are those whose published codes differ, in Morton orde
   after.set(300, VoxelCode::free());
   BlockCodes fresh;
   fresh.set(511, VoxelCode::free());
-  Replica published(LayerId{1, 1, 1});
+  Replica published(LayerId{1, 1, 1}, kDefaultResolution);
   published.publish(std::vector<CodedBlock>{{7, CodeBlock(before)}});
   const std::vector<CodedBlock> now = {{7, CodeBlock(after)}, {3, CodeBlock(fresh)}};
   const std::vector<ChangedVoxel> expected = {{3 << 9 | 511, VoxelCode::free()},

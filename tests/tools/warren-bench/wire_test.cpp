@@ -58,11 +58,11 @@ TEST_CASE("a tick spans as many scans as the rate says, or their own times") {
 
 TEST_CASE("a live pass counts the voxels whose codes changed and makes an equal copy") {
   const WireTape tape = random_tape(5);
-  Replica origin(kLayer);
-  Replica copy(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
+  Replica copy(kLayer, kDefaultResolution);
   const auto result = run_live(tape, options_of(1.0, 1.0), origin, copy);
   REQUIRE(result);
-  Replica again(kLayer);
+  Replica again(kLayer, kDefaultResolution);
   std::uint64_t changed = 0;
   std::uint64_t bytes = 0;
   for (const auto& tick : tape.ticks) {
@@ -84,7 +84,7 @@ TEST_CASE("a live pass counts the voxels whose codes changed and makes an equal 
 
 TEST_CASE("a copy that missed nothing costs nothing and one that missed all costs a snapshot") {
   const WireTape tape = random_tape(10);
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   for (const auto& tick : tape.ticks) origin.publish(tick);
   const auto results = bench_catch_up(tape, origin, options_of(1.0, 1.0));
   REQUIRE(results);
@@ -100,9 +100,9 @@ TEST_CASE("a copy that missed nothing costs nothing and one that missed all cost
 
 TEST_CASE("catching up raises a copy with holes to the source") {
   const WireTape tape = random_tape(6);
-  Replica origin(kLayer);
+  Replica origin(kLayer, kDefaultResolution);
   origin.publish(tape.ticks[0]);
-  Replica copy(kLayer);
+  Replica copy(kLayer, kDefaultResolution);
   // Half of the first tick arrives, then the origin goes on.
   auto packets = sweep(origin, {}, 440);
   packets.resize(packets.size() / 2);
@@ -117,9 +117,9 @@ TEST_CASE("catching up raises a copy with holes to the source") {
 
 TEST_CASE("sameness of blocks is seen from both sides") {
   const WireTape tape = random_tape(1);
-  Replica full(kLayer);
+  Replica full(kLayer, kDefaultResolution);
   full.publish(tape.ticks[0]);
-  const Replica empty(kLayer);
+  const Replica empty(kLayer, kDefaultResolution);
   CHECK(same_blocks(full, full));
   CHECK_FALSE(same_blocks(full, empty));
   CHECK_FALSE(same_blocks(empty, full));
@@ -127,7 +127,7 @@ TEST_CASE("sameness of blocks is seen from both sides") {
 
 TEST_CASE("queries are measured where the merge-map and OctoMap agree, and not without a map") {
   const WireTape tape = random_tape(2);
-  Replica layer(kLayer);
+  Replica layer(kLayer, kDefaultResolution);
   CHECK_FALSE(bench_query(layer, 0.15));
   for (const auto& tick : tape.ticks) layer.publish(tick);
   const auto cost = bench_query(layer, 0.15);
