@@ -18,8 +18,7 @@ constexpr std::uint64_t blocks_in_cube(int level) {
 }
 
 CodeNode node_of(std::uint64_t morton, int level, const CodeMix& mix) {
-  const auto uniform = mix.uniform();
-  return {key_of_morton(morton), level, uniform.value_or(mix.worst()), !uniform};
+  return CodeNode::of(key_of_morton(morton), level, mix);
 }
 
 struct MixedBlock {

@@ -15,6 +15,11 @@ struct CodeNode {
   int level = 0;
   VoxelCode code;
   bool has_children = false;  // then codes differ within it, and `code` is CodeMix::worst()
+
+  static CodeNode of(const VoxelKey& low, int level, const CodeMix& mix) {
+    const auto uniform = mix.uniform();
+    return {low, level, uniform.value_or(mix.worst()), !uniform};
+  }
 };
 
 // A layer as a read-only octree, pruned where eight children have equal codes: costs are never

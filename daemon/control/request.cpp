@@ -10,6 +10,7 @@
 namespace warren {
 namespace {
 
+constexpr std::uint32_t kVoxelDepth = 16;
 constexpr double kYawMost_rad = 1000.0;
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
@@ -94,6 +95,35 @@ tl::expected<ControlRequest, std::string> layer_diff_question(
   return LayerDiffQuestion{{request.first_key(), kOrdinalEnd}, Revision{request.from()}};
 }
 
+tl::expected<ControlRequest, std::string> cells_question(const control::CellsRequest& request) {
+  const bool is_point = request.high_map_m_size() == 0;
+  if (request.low_map_m_size() != 3 || (!is_point && request.high_map_m_size() != 3)) {
+    return tl::unexpected(std::string("cells.low_map_m needs 3 numbers, high_map_m 3 or none"));
+  }
+  if (!control::MapSource_IsValid(request.source())) {
+    return tl::unexpected(std::string("cells.source is unknown"));
+  }
+  const bool by_edge = request.size_case() == control::CellsRequest::kCellM;
+  const bool by_depth = request.size_case() == control::CellsRequest::kDepth;
+  if (by_depth && request.depth() > kVoxelDepth) {
+    return tl::unexpected(std::string("cells.depth is 0 to 16"));
+  }
+  if (by_edge && !(std::isfinite(request.cell_m()) && request.cell_m() > 0.0)) {
+    return tl::unexpected(std::string("cells.cell_m must be above 0"));
+  }
+  CellsQuestion question;
+  question.source = source_of(request.source());
+  question.low_map = vector_at(request.low_map_m(), 0);
+  question.high_map = is_point ? question.low_map : vector_at(request.high_map_m(), 0);
+  if (!question.low_map.allFinite() || !question.high_map.allFinite() ||
+      (question.low_map.array() > question.high_map.array()).any()) {
+    return tl::unexpected(std::string("cells.low_map_m must be below high_map_m, both finite"));
+  }
+  question.size = by_depth ? request.depth() : kVoxelDepth;
+  if (by_edge) question.size = request.cell_m();
+  return question;
+}
+
 LayerId id_of(const control::LayerId& id) { return {id.origin(), id.number(), id.incarnation()}; }
 
 template <typename Order, typename Request>
@@ -145,6 +175,8 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return layer_order<RestoreOrder>("map_restore", request.map_restore());
     case control::Request::kMapMove:
       return move_order(request.map_move());
+    case control::Request::kCells:
+      return cells_question(request.cells());
     case control::Request::kGround:
       return ground_question(request.ground());
     default:

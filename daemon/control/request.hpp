@@ -46,6 +46,14 @@ struct LayerDiffQuestion {
   KeyInterval keys;
   Revision from;
 };
+// What is known in a box, by cells of the octree?
+struct CellsQuestion {
+  MapSource source = MapSource::kSelf;
+  Eigen::Vector3d low_map;   // finite
+  Eigen::Vector3d high_map;  // of a point: the same
+  // The depth in the octree, 0 to 16; or the least edge of a cell, metres, positive.
+  std::variant<std::uint32_t, double> size;
+};
 struct FlushOrder {};
 // How a layer lies apart from where its pose puts it: turned about the vertical through its origin,
 // then shifted.
@@ -63,9 +71,9 @@ struct MoveOrder {
   LayerId layer;
   LayerShift shift;
 };
-using ControlRequest =
-    std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion,
-                 LayerDiffQuestion, LoadOrder, FlushOrder, RetractOrder, RestoreOrder, MoveOrder>;
+using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder,
+                                    GroundQuestion, LayerDiffQuestion, LoadOrder, FlushOrder,
+                                    RetractOrder, RestoreOrder, MoveOrder, CellsQuestion>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -96,6 +96,11 @@ void fill(const PublishingReport& report, control::Publishing& publishing) {
   publishing.set_digest(hex_of(report.current->digest));
 }
 
+const char* name_of(VoxelState state) {
+  if (state == VoxelState::kOccupied) return "occupied";
+  return state == VoxelState::kFree ? "free" : "unknown";
+}
+
 void fill(const LayerMemory& memory, control::LayerMemory& message) {
   message.set_own_layers_bytes(memory.own_layers_bytes);
   message.set_loaded_layers_bytes(memory.loaded_layers_bytes);
@@ -199,6 +204,21 @@ std::string encode_map_loaded(const LoadedLayer& layer) {
 std::string encode_loaded_layer(const LoadedLayer& layer) {
   control::Response response;
   fill(layer, *response.mutable_loaded_layer());
+  return framed(response.SerializeAsString());
+}
+
+std::string encode_cells(const CellsAnswer& answer) {
+  control::Response response;
+  auto& message = *response.mutable_cells();
+  message.set_cell_m(answer.cell_m());
+  for (const CodeNode& node : answer.cells) {
+    auto& cell = *message.add_cells();
+    add_vector(answer.low_map(node), *cell.mutable_low_map_m());
+    cell.set_state(name_of(node.code.state()));
+    if (const auto cost = decode_cost(node.code.cost())) cell.set_cost(*cost);
+    cell.set_stair(node.code.stair());
+    cell.set_mixed(node.has_children);
+  }
   return framed(response.SerializeAsString());
 }
 

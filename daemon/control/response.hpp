@@ -34,6 +34,7 @@ std::string encode_map_loaded(const LoadedLayer& layer);
 // To a retraction, a restoration or a move.
 std::string encode_loaded_layer(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
+std::string encode_cells(const CellsAnswer& answer);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);
 

@@ -137,6 +137,18 @@ void ControlService::answer(const FlushOrder&, const Respond& respond) {
   if (!asked) respond(encode_error(kTooBusy));
 }
 
+void ControlService::answer(const CellsQuestion& question, const Respond& respond) {
+  const bool asked = parts_.fleet.ask(
+      [this, question, respond, guard = asio::make_work_guard(parts_.io)](FleetMap& fleet) {
+        const auto cells = fleet.cells(question);
+        asio::post(parts_.io,
+                   [respond, frame = cells ? encode_cells(*cells) : encode_error(cells.error())] {
+                     respond(frame);
+                   });
+      });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
 void ControlService::answer(const RetractOrder& order, const Respond& respond) {
   change_loaded([order](LoadedLayers& loaded) { return loaded.retract(order.layer); }, respond);
 }

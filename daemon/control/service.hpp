@@ -55,6 +55,7 @@ class ControlService {
   void answer(const LayerDiffQuestion& question, const Respond& respond);
   void answer(const LoadOrder& order, const Respond& respond);
   void answer(const FlushOrder& order, const Respond& respond);
+  void answer(const CellsQuestion& question, const Respond& respond);
   void answer(const RetractOrder& order, const Respond& respond);
   void answer(const RestoreOrder& order, const Respond& respond);
   void answer(const MoveOrder& order, const Respond& respond);

@@ -100,6 +100,20 @@ tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& q
   return answer_ground(MergeView(merge_), merge_origin_map_, gravity_map_, question);
 }
 
+tl::expected<CellsAnswer, std::string> FleetMap::cells(const CellsQuestion& question) {
+  const bool on_merge = question.source == MapSource::kMerge;
+  if (own_.empty() && (!on_merge || loaded_.size() == 0)) {
+    return tl::unexpected(std::string(kNoMapYet));
+  }
+  const double resolution_m = config_.resolution.metres();
+  const Eigen::Vector3d origin_map =
+      on_merge ? merge_origin_map_ : own_.rbegin()->second.T_map_layer().translation();
+  const auto grid = grid_of(question, resolution_m, origin_map);
+  if (!grid) return tl::unexpected(grid.error());
+  return CellsAnswer{resolution_m, origin_map, grid->level(),
+                     on_merge ? cells_of(merge_, *grid) : cells_of(*current(), *grid)};
+}
+
 std::shared_ptr<const MergedSnapshot> FleetMap::merged_snapshot() {
   if (own_.empty() && loaded_.size() == 0) return nullptr;
   return std::make_shared<const MergedSnapshot>(snapshot_of(merge_, merge_origin_map_));

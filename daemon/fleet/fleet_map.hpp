@@ -16,6 +16,7 @@
 #include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/merge_map.hpp"
 #include "daemon/control/request.hpp"
+#include "daemon/fleet/cells_answer.hpp"
 #include "daemon/fleet/loaded_layers.hpp"
 #include "daemon/fleet/own_layer.hpp"
 #include "daemon/mapper/layered_map.hpp"
@@ -110,6 +111,9 @@ class FleetMap {
   // The question is about the map frame of the newest own layer, and without gravity. Fills the
   // merge-map's cache.
   tl::expected<GroundAnswer, std::string> ground(const GroundQuestion& question);
+  // Of the current own layer as it is published, or of the merge-map; the question is about the map
+  // frame of the newest own layer.
+  tl::expected<CellsAnswer, std::string> cells(const CellsQuestion& question);
   PublishingReport report() const;
   // All of the merge-map, for a file. Nothing while no layer is held.
   std::shared_ptr<const MergedSnapshot> merged_snapshot();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -172,6 +173,45 @@ TEST_CASE("the merge-map is saved in every format but as a layer, by robot if so
   CHECK_FALSE(client.ask(request).error().text().empty());
   order.set_source(control::SELF);
   CHECK(client.ask(request).error().text().find("ROBOT") != std::string::npos);
+}
+
+TEST_CASE("cells are told by depth or by edge, and questions that make no sense refused") {
+  RunningDaemon daemon(quick_ticks());
+  take_one_scan(daemon);
+  published(daemon);
+  TestClient client(daemon.control_socket());
+  control::Request request;
+  auto& question = *request.mutable_cells();
+  for (const double coordinate : {5.05, 0.0, 0.0}) question.add_low_map_m(coordinate);
+  control::Cells voxel = client.ask(request).cells();
+  REQUIRE(voxel.cells_size() == 1);
+  CHECK(voxel.cell_m() == doctest::Approx(0.1));
+  CHECK(voxel.cells(0).state() == "occupied");
+  CHECK(voxel.cells(0).low_map_m(0) == doctest::Approx(5.0));
+  question.set_depth(12);
+  question.set_source(control::MERGE);
+  const control::Cells coarse = client.ask(request).cells();
+  REQUIRE(coarse.cells_size() == 1);
+  CHECK(coarse.cell_m() == doctest::Approx(1.6));
+  CHECK(coarse.cells(0).state() == "occupied");
+  CHECK(coarse.cells(0).mixed());
+  question.set_cell_m(0.5);
+  CHECK(client.ask(request).cells().cell_m() == doctest::Approx(0.8));
+
+  const auto error = [&] { return client.ask(request).error().text(); };
+  question.set_depth(17);
+  CHECK(error().find("0 to 16") != std::string::npos);
+  for (const double wrong : {0.0, -1.0, std::nan("")}) {
+    question.set_cell_m(wrong);
+    CHECK(error().find("above 0") != std::string::npos);
+  }
+  question.clear_size();
+  for (const double coordinate : {5.0, 1.0, 1.0}) question.add_high_map_m(coordinate);
+  CHECK(error().find("below high_map_m") != std::string::npos);
+  question.set_high_map_m(0, std::numeric_limits<double>::infinity());
+  CHECK(error().find("finite") != std::string::npos);
+  question.mutable_high_map_m()->RemoveLast();
+  CHECK(error().find("3 numbers") != std::string::npos);
 }
 
 TEST_CASE("a load that cannot be says why") {

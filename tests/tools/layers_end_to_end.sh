@@ -86,6 +86,29 @@ case_what_is_held_back_is_published_on_demand() {
   stop_daemon
 }
 
+case_cells_are_asked_about() {
+  local ctl=("$bin/warrenctl" --socket "$work/control.sock")
+  scene 10
+  start_daemon
+  replay --rate max >/dev/null || fail "replay: $(cat "$work/replay.err")"
+  wait_until "two ticks" ticked "$(($(published_field ticks) + 2))"
+  "${ctl[@]}" query box -2 -2 -2 2 2 2 --cell-m 0.4 >"$work/self"
+  grep -qE 'occupied, cost .*at worst' "$work/self" || fail "no mixed cell: $(cat "$work/self")"
+  grep -qE '^[0-9]+ cells of 0.400 m' "$work/self" || fail "$(cat "$work/self")"
+  # What a robot alone knows is its merge-map, but for what is held back.
+  "${ctl[@]}" layer flush >/dev/null
+  "${ctl[@]}" query box -2 -2 -2 2 2 2 --cell-m 0.4 >"$work/self"
+  "${ctl[@]}" query box -2 -2 -2 2 2 2 --depth 14 --merge >"$work/merged"
+  diff "$work/self" "$work/merged" || fail "the merge-map of one robot is not its own map"
+  "${ctl[@]}" query point 0 0 0 --json >"$work/point.json"
+  [ "$("$python" -c 'import json,sys; print(len(json.load(open(sys.argv[1]))["cells"]))' \
+    "$work/point.json")" = 1 ] || fail "$(cat "$work/point.json")"
+  if "${ctl[@]}" query box -9 -9 -9 9 9 9 2>"$work/err"; then fail "told millions of cells"; fi
+  grep -q "at most 4096" "$work/err" || fail "$(cat "$work/err")"
+  if "${ctl[@]}" query point 0 0 0 --depth 3 --cell-m 1 2>/dev/null; then fail "took two sizes"; fi
+  stop_daemon
+}
+
 case_a_loaded_layer_is_retracted_restored_and_moved() {
   local ctl=("$bin/warrenctl" --socket "$work/control.sock")
   scene 10

@@ -19,6 +19,7 @@ struct Options {
   std::string layer;
   std::array<double, 4> shift{};  // x y z yaw
   GroundCommand ground;
+  CellsCommand cells;
   std::string other_file;
   std::uint32_t origin = 0;
   bool regions = false;
@@ -31,11 +32,24 @@ CLI::App* add_with_json(CLI::App& app, const char* name, const char* text, Optio
   return command;
 }
 
-CLI::App* add_query(CLI::App& app, Options& options) {
-  auto* const query =
-      app.add_subcommand("query", "Ask about places in the map")->require_subcommand(1);
+// `query point` or `query box`.
+CLI::App* add_cells(CLI::App& query, const char* name, const char* text, const char* place,
+                    const char* place_text, int numbers, Options& options) {
+  auto* const command = add_with_json(query, name, text, options);
+  CellsCommand& cells = options.cells;
+  command->add_option(place, cells.corners_map_m, place_text)->required()->expected(numbers);
+  auto* const depth =
+      command->add_option("--depth", cells.depth, "Of the octree: 16 a voxel, 0 all keys")
+          ->check(CLI::Range(0, 16));
+  command->add_option("--cell-m", cells.cell_m, "The smallest cells with at least this edge, m")
+      ->excludes(depth);
+  command->add_flag("--merge", cells.on_merge, "On the merge-map: what others know counts too");
+  return command;
+}
+
+CLI::App* add_ground(CLI::App& query, Options& options) {
   auto* const command = add_with_json(
-      *query, "ground", "The ground under a footprint, and may a robot stand there", options);
+      query, "ground", "The ground under a footprint, and may a robot stand there", options);
   GroundCommand& ground = options.ground;
   command->add_option("POSITION", ground.position_map_m, "x y z of the base on the ground, map, m")
       ->required();
@@ -166,7 +180,13 @@ class LayerCommands {
 CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const status = add_with_json(app, "status", "What the daemon takes and drops", options);
   const MapCommands map(app, options);
-  auto* const ground = add_query(app, options);
+  auto* const query =
+      app.add_subcommand("query", "Ask about places in the map")->require_subcommand(1);
+  auto* const ground = add_ground(*query, options);
+  auto* const point = add_cells(*query, "point", "The code of the cell around a point", "POSITION",
+                                "x y z, map, m", 3, options);
+  auto* const box = add_cells(*query, "box", "The codes of all cells that a box touches", "CORNERS",
+                              "Lowest x y z, highest x y z, map, m", 6, options);
   auto* const config = app.add_subcommand("config", "Configuration")->require_subcommand(1);
   auto* const check = config->add_subcommand("check", "Tell all faults of a file");
   check->add_option("FILE", options.file)->required();
@@ -183,6 +203,10 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   if (ground->parsed()) {
     options.ground.json = options.json;
     return options.ground;
+  }
+  if (point->parsed() || box->parsed()) {
+    options.cells.json = options.json;
+    return options.cells;
   }
   if (const auto command = layer.parsed()) return *command;
   if (check->parsed()) return ConfigCheckCommand{options.file};

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "tools/warrenctl/layer_commands.hpp"
 
@@ -49,6 +50,13 @@ struct GroundCommand {
   bool stair_capable = false;
   bool json = false;
 };
+struct CellsCommand {
+  bool on_merge = false;
+  std::vector<double> corners_map_m;  // x y z of a point, or of a box's two corners
+  std::optional<std::uint32_t> depth;
+  std::optional<double> cell_m;
+  bool json = false;
+};
 struct ConfigCheckCommand {
   std::filesystem::path file;
 };
@@ -62,7 +70,7 @@ using CtlCommand =
     std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
                  LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
-                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, ExitCommand>;
+                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

@@ -47,6 +47,18 @@ control::Request request_of(const GroundCommand& command) {
   return request;
 }
 
+control::Request request_of(const CellsCommand& command) {
+  control::Request request;
+  auto& cells = *request.mutable_cells();
+  const auto& corners = command.corners_map_m;
+  cells.mutable_low_map_m()->Assign(corners.begin(), corners.begin() + 3);
+  cells.mutable_high_map_m()->Assign(corners.begin() + 3, corners.end());
+  cells.set_source(command.on_merge ? control::MERGE : control::SELF);
+  if (command.depth) cells.set_depth(*command.depth);
+  if (command.cell_m) cells.set_cell_m(*command.cell_m);
+  return request;
+}
+
 control::PictureColours colours_of(const std::string& name) {
   if (name == "cost") return control::COST;
   return name == "robot" ? control::ROBOT : control::HEIGHT;
@@ -112,6 +124,11 @@ struct Executor {
   int operator()(const GroundCommand& command) const {
     return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
       return command.json ? json_of(response.ground()) : table_of(response.ground());
+    });
+  }
+  int operator()(const CellsCommand& command) const {
+    return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
+      return command.json ? json_of(response.cells()) : table_of(response.cells());
     });
   }
   int operator()(const ConfigCheckCommand& command) const {

@@ -161,6 +161,27 @@ std::string sentence_of(const control::MapSaved& saved) {
   return out.str();
 }
 
+std::string table_of(const control::Cells& cells) {
+  std::ostringstream out;
+  out << std::fixed;
+  int unknown = 0;
+  for (const auto& cell : cells.cells()) {
+    if (cell.state() == "unknown" && !cell.mixed()) {
+      ++unknown;
+      continue;
+    }
+    label(out, listed(cell.low_map_m(), 2)) << "  " << cell.state();
+    if (cell.has_cost()) out << std::setprecision(2) << ", cost " << cell.cost();
+    if (cell.state() == "occupied" && !cell.has_cost()) out << ", cost no data";
+    if (cell.stair()) out << ", stair";
+    if (cell.mixed()) out << ", at worst: its voxels differ";
+    out << "\n";
+  }
+  out << cells.cells_size() << (cells.cells_size() == 1 ? " cell of " : " cells of ")
+      << std::setprecision(3) << cells.cell_m() << " m, " << unknown << " unknown throughout\n";
+  return out.str();
+}
+
 std::string text_of(const control::LayerId& id) {
   std::ostringstream out;
   out << id.origin() << "." << id.number() << "." << std::hex << std::setfill('0') << std::setw(16)

@@ -4,6 +4,7 @@
 #include <string>
 
 namespace warren::control {
+class Cells;
 class Ground;
 class LayerFlushed;
 class LayerId;
@@ -23,6 +24,8 @@ namespace warren {
 std::string table_of(const control::Status& status);
 std::string table_of(const control::MapInfo& info);
 std::string table_of(const control::Ground& ground);
+// Of the cells of which something is known.
+std::string table_of(const control::Cells& cells);
 std::string sentence_of(const control::MapSaved& saved);
 // ORIGIN.NUMBER.INCARNATION, the last in hexadecimal.
 std::string text_of(const control::LayerId& id);
