@@ -107,7 +107,7 @@ std::vector<CodedBlock> blocks_changed_since(const SelfMap& map, std::uint32_t c
 std::vector<CodedBlock> Publisher::tick(std::span<const CodedBlock> now, const Replica& published) {
   std::vector<CodedBlock> changed;
   for (const auto& [block, exact] : now) {
-    const CodeBlock before = published.codes(block);
+    const CodeBlock& before = published.codes_in_place(block);
     Shown shown = shown_of(exact, before, rules_);
     if (shown.holds_back) {
       held_back_.insert_or_assign(block, exact);
@@ -122,7 +122,7 @@ std::vector<CodedBlock> Publisher::tick(std::span<const CodedBlock> now, const R
 std::vector<CodedBlock> Publisher::flush(const Replica& published) {
   std::vector<CodedBlock> changed;
   for (auto& [block, exact] : std::exchange(held_back_, {})) {
-    if (published.codes(block) != exact) changed.push_back({block, exact});
+    if (published.codes_in_place(block) != exact) changed.push_back({block, exact});
   }
   return changed;
 }

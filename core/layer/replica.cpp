@@ -38,6 +38,17 @@ void fill_up_free(VoxelMask& told, const VoxelMask& free) {
   }
 }
 
+// So is telling of all that is known where two thirds of it are to be told.
+void fill_up_known(VoxelMask& told, const VoxelMask& known) {
+  int to_tell = 0;
+  int all = 0;
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    to_tell += std::popcount(told[cell] & known[cell]);
+    all += std::popcount(known[cell]);
+  }
+  if (3 * to_tell >= 2 * all) told = known;
+}
+
 void keep_only(BlockCodes& codes, const VoxelMask& told) {
   for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
     for_each_bit(codes.occupied[cell] & ~told[cell],
@@ -61,6 +72,7 @@ BlockDiff diff_of(BlockOrdinal ordinal, const LayerBlock& block, Revision from) 
   diff.replaces = no_more_known != 0;
   if (diff.replaces) return diff;
   fill_up_free(told, free);
+  fill_up_known(told, diff.codes.known);
   keep_only(diff.codes, told);
   return diff;
 }
@@ -146,10 +158,9 @@ Revision Replica::publish(std::span<const CodedBlock> blocks) {
   const Revision next{now.number + 1};
   std::vector<BlockOrdinal> changed;
   for (const CodedBlock& published : blocks) {
-    const CodeBlock before = codes(published.block);
-    if (before == published.codes) continue;
-    const VoxelMask differ = places_that_differ(before.unpack(), published.codes.unpack());
+    if (codes_in_place(published.block) == published.codes) continue;
     change(published.block, [&](LayerBlock& block) {
+      const VoxelMask differ = places_that_differ(block.codes.unpack(), published.codes.unpack());
       block.codes = published.codes;
       block.history.record(next, differ);
     });

@@ -64,10 +64,12 @@ class Replica {
   std::vector<LayerDigest::Entry> digest_blocks(RegionOrdinal region) const;
   // Null if nothing was ever known of it. Valid until the next call of any function here.
   const LayerBlock* find(BlockOrdinal block) const { return blocks_.find(block); }
-  // A copy of a block's codes; empty if nothing is known of it.
-  CodeBlock codes(BlockOrdinal block) const {
+  // The block's codes, empty if nothing is known of it: a copy, or valid as what find() gives.
+  CodeBlock codes(BlockOrdinal block) const { return codes_in_place(block); }
+  const CodeBlock& codes_in_place(BlockOrdinal block) const {
+    static const CodeBlock kEmpty;
     const LayerBlock* const found = find(block);
-    return found != nullptr ? found->codes : CodeBlock{};
+    return found != nullptr ? found->codes : kEmpty;
   }
   // Calls visit(BlockOrdinal, const LayerBlock&) in key order for the blocks changed after `from`,
   // as long as it returns true; emptied ones are among them. `visit` may read this replica.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/layer/catch_up.hpp"
 #include "tools/warren-bench/wire_sweep.hpp"
 
 namespace warren {
@@ -77,10 +78,7 @@ std::optional<CatchUp> measure(const WireTape& tape, const Replica& origin, cons
 std::optional<std::uint64_t> catch_up(const Replica& source, Replica& copy,
                                       std::size_t packet_bytes) {
   std::uint64_t bytes = 0;
-  std::vector<KeyInterval> parts =
-      source.regions_by_change(copy.holdings().lowest({}), kHotRegions);
-  parts.push_back({});
-  for (const KeyInterval& part : parts) {
+  for (const KeyInterval& part : catch_up_parts(source, copy.holdings().lowest({}))) {
     const auto sent = raise(source, copy, part, packet_bytes);
     if (!sent) return std::nullopt;
     bytes += *sent;

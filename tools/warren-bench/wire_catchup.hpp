@@ -33,9 +33,8 @@ struct CatchUp {
   }
 };
 
-// As a sender does it: the regions changed last first, at most kHotRegions of them, then what is
-// left in key order, from what the copy says that it holds. Nothing if a packet was not taken.
-inline constexpr std::size_t kHotRegions = 16;
+// As a sender does it: part by part, from what the copy says that it holds. Nothing if a packet was
+// not taken.
 std::optional<std::uint64_t> catch_up(const Replica& source, Replica& copy,
                                       std::size_t packet_bytes);
 

@@ -96,6 +96,28 @@ TEST_CASE("an emptied block is emptied at every copy, and passed on by them") {
   CHECK(late.find(9)->codes.empty());
 }
 
+TEST_CASE("a block is told as a whole where two thirds of what is known of it are to be told") {
+  const auto voxels_told = [](std::uint32_t changed) {
+    BlockCodes codes;
+    for (std::uint32_t i = 0; i < 10; ++i) codes.set(40 * i, VoxelCode::occupied(3, false));
+    Replica origin(kLayer);
+    publish(origin, {{9, CodeBlock(codes)}});
+    Replica copy(kLayer);
+    CHECK(apply(copy, encoded(origin, 0)) == ApplyResult::kApplied);
+    for (std::uint32_t i = 0; i < changed; ++i) codes.set(40 * i, VoxelCode::occupied(4, false));
+    publish(origin, {{9, CodeBlock(codes)}});
+    const DiffPacket packet = encoded(origin, 1);
+    CHECK(apply(copy, packet) == ApplyResult::kApplied);
+    CHECK(same(copy, origin, 9));
+    std::uint32_t told = 0;
+    const auto diffs = read_blocks(*read_header(packet.bytes), packet.bytes);
+    CodeBlock(diffs->front().codes).for_each_known([&](std::uint32_t, VoxelCode) { ++told; });
+    return told;
+  };
+  CHECK(voxels_told(6) == 6);
+  CHECK(voxels_told(7) == 10);
+}
+
 TEST_CASE("a relay tells no more of a block than changed since, though it was fed in bulk") {
   Replica origin(kLayer, kDefaultResolution);
   publish(origin, {block_with(9, 1, VoxelCode::free())});
