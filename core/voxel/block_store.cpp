@@ -24,6 +24,7 @@ std::uint64_t region_code(const VoxelKey& region) {
 
 BlockStore::BlockStore(const BlockStore& other)
     : region_index_(other.region_index_),
+      last_changes_(other.last_changes_),
       pool_(other.pool_),
       values_(other.values_),
       block_costs_(other.block_costs_),
@@ -47,6 +48,7 @@ std::uint32_t BlockStore::find_or_add_region(const VoxelKey& region) {
   if (added) {
     regions_.push_back(std::make_unique<Region>());
     regions_.back()->key = region;
+    last_changes_.push_back(0);
   }
   return entry->second;
 }
@@ -164,7 +166,8 @@ std::size_t BlockStore::memory_bytes() const {
   // A node and a bucket of the hash are about 32 bytes.
   return pool_.memory_bytes() + values_.memory_bytes() + block_costs_.memory_bytes() +
          costs_.memory_bytes() + region_index_.size() * 32 +
-         regions_.capacity() * sizeof(regions_[0]) + regions_.size() * sizeof(Region);
+         regions_.capacity() * sizeof(regions_[0]) + regions_.size() * sizeof(Region) +
+         last_changes_.capacity() * sizeof(last_changes_[0]);
 }
 
 }  // namespace warren

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -56,12 +57,6 @@ struct Region {
   VoxelKey key{};  // voxel key / 64
   std::array<BlockSlot, kBlocksPerRegion> slots{};
   std::array<std::uint32_t, kBlocksPerRegion> changed_at{};  // number of a scan; 0 never
-  std::uint32_t last_change = 0;                             // the highest of them
-
-  void mark_changed(std::uint32_t slot, std::uint32_t scan) {
-    changed_at[slot] = scan;
-    last_change = scan;
-  }
 };
 
 constexpr VoxelKey region_of(const VoxelKey& key) { return {key.x >> 6, key.y >> 6, key.z >> 6}; }
@@ -82,6 +77,13 @@ class BlockStore {
   std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
   Region& region(std::uint32_t index) { return *regions_[index]; }
   const Region& region(std::uint32_t index) const { return *regions_[index]; }
+  // The block in this slot of the region changed at the scan, the latest so far.
+  void mark_changed(std::uint32_t index, std::uint32_t slot, std::uint32_t scan) {
+    regions_[index]->changed_at[slot] = scan;
+    last_changes_[index] = scan;
+  }
+  // By region index the latest of its blocks' changes: what a look at every region may cost.
+  std::span<const std::uint32_t> last_changes() const { return last_changes_; }
   // Region indices by Morton order of their keys.
   std::vector<std::uint32_t> regions_in_order() const;
 
@@ -125,6 +127,7 @@ class BlockStore {
  private:
   std::unordered_map<std::uint64_t, std::uint32_t> region_index_;
   std::vector<std::unique_ptr<Region>> regions_;
+  std::vector<std::uint32_t> last_changes_;
   ChunkedPool<Block, 64> pool_;
   LogOddsCells values_;
   ChunkedPool<BlockCosts, 64> block_costs_;

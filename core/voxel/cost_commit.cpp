@@ -20,9 +20,7 @@ class BlockFinder {
     return slot_ < kFirstBlockSlot ? nullptr : &store_.block(slot_);
   }
   // The block found last.
-  void stamp(std::uint32_t scan) {
-    store_.region(region_).mark_changed(slot_in_region(key_), scan);
-  }
+  void stamp(std::uint32_t scan) { store_.mark_changed(region_, slot_in_region(key_), scan); }
 
  private:
   BlockStore& store_;

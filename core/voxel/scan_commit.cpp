@@ -58,8 +58,7 @@ CommitCounts commit_marks(const ScanMarker& marker, const FixedSensorModel& mode
   for (std::uint32_t i = 0; i < marker.marked_count(); ++i) {
     const MarkedBlock& marked = marker.marked(i);
     const BlockMask& hits = marker.hits(marked);
-    Region& region = store.region(marked.region);
-    BlockSlot& slot = region.slots[marked.slot];
+    BlockSlot& slot = store.region(marked.region).slots[marked.slot];
     Block& block = store.materialise(slot);
     bool changed = false;
     for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
@@ -73,7 +72,7 @@ CommitCounts commit_marks(const ScanMarker& marker, const FixedSensorModel& mode
     store.forget_costs_at_clamp(block);
     store.collapse_if_free(slot);
     if (!changed) continue;
-    region.mark_changed(marked.slot, scan);
+    store.mark_changed(marked.region, marked.slot, scan);
     ++counts.blocks_changed;
   }
   return counts;

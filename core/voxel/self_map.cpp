@@ -194,8 +194,8 @@ std::optional<float> SelfMap::cost(const VoxelKey& key) const {
 std::vector<BlockKey> SelfMap::blocks_changed_since(std::uint32_t cursor) const {
   std::vector<BlockKey> changed;
   for (std::uint32_t index = 0; index < store_.region_count(); ++index) {
+    if (store_.last_changes()[index] <= cursor) continue;
     const Region& region = store_.region(index);
-    if (region.last_change <= cursor) continue;
     for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
       if (region.changed_at[slot] > cursor) changed.push_back(block_in_region(region.key, slot));
     }

@@ -91,7 +91,7 @@ class SelfMap {
 
   // Blocks whose log-odds or costs changed after the scan numbered `cursor`; 0 gives all. Scans are
   // numbered from 1; cursor() is the number of the last. In no particular order; what did not
-  // change costs nothing but a look at each region.
+  // change costs nothing but a look at a number per region.
   std::vector<BlockKey> blocks_changed_since(std::uint32_t cursor) const;
   std::uint32_t cursor() const { return scans_; }
 
