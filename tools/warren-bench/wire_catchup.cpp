@@ -31,8 +31,8 @@ std::optional<std::uint64_t> raise(const Replica& source, Replica& copy, KeyInte
 // A copy that was there for the first ticks.
 Replica copy_of_first(const WireTape& tape, std::size_t ticks, const Replica& origin,
                       std::size_t packet_bytes) {
-  Replica past(origin.id());
-  Replica copy(origin.id());
+  Replica past(origin.id(), origin.resolution());
+  Replica copy(origin.id(), origin.resolution());
   for (std::size_t i = 0; i < ticks; ++i) {
     const Revision from = past.holdings().at(0);
     past.publish(tape.ticks[i]);
@@ -47,7 +47,7 @@ std::uint64_t snapshot_bytes(const Replica& origin, Revision since, std::size_t 
     blocks.push_back({block, changed.codes});
     return true;
   });
-  Replica snapshot(origin.id());
+  Replica snapshot(origin.id(), origin.resolution());
   snapshot.publish(blocks);
   return bytes_of(sweep(snapshot, {}, packet_bytes));
 }
@@ -88,7 +88,7 @@ std::optional<std::uint64_t> catch_up(const Replica& source, Replica& copy,
 
 std::optional<std::vector<CatchUp>> bench_catch_up(const WireTape& tape, const Replica& origin,
                                                    const WireOptions& options) {
-  Replica relay(origin.id());
+  Replica relay(origin.id(), origin.resolution());
   if (!catch_up(origin, relay, options.packet_bytes)) return std::nullopt;
   std::vector<CatchUp> results;
   for (const double share : kMissedShares) {

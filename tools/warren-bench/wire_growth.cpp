@@ -70,8 +70,8 @@ class GrowingMap {
   SelfMap map_;
   ScanPipeline pipeline_{TerrainConfig::paper()};
   Publisher publisher_;
-  Replica layer_{LayerId{1, 1, 1}};
-  Replica copy_{LayerId{1, 1, 1}};
+  Replica layer_{LayerId{1, 1, 1}, kDefaultResolution};
+  Replica copy_{LayerId{1, 1, 1}, kDefaultResolution};
   std::uint32_t cursor_ = 0;
   float copies_ = 0.0F;
 };

@@ -29,7 +29,7 @@ class TimedPublisher {
  private:
   Stopwatch watch_;
   Publisher publisher_;
-  Replica layer_{LayerId{1, 1, 1}};
+  Replica layer_{LayerId{1, 1, 1}, kDefaultResolution};
   std::uint32_t cursor_ = 0;
 };
 

@@ -48,14 +48,14 @@ std::size_t follow(const Replica& sender, Replica& copy) {
 }  // namespace
 
 TEST_CASE("a catch-up of few regions is one sweep") {
-  Replica origin(LayerId{1, 1, 1});
+  Replica origin(LayerId{1, 1, 1}, kDefaultResolution);
   publish_every_second(origin, 7);
   CHECK(catch_up_parts(origin, {}) == Parts{{}});
   CHECK(catch_up_parts(origin, {1}) == Parts{{}});
 }
 
 TEST_CASE("a catch-up begins with an eighth of the regions, changed last, latest first") {
-  Replica origin(LayerId{1, 1, 1});
+  Replica origin(LayerId{1, 1, 1}, kDefaultResolution);
   publish_every_second(origin, 24);
   publish(origin, {block_in(40, 2)});
   publish(origin, {block_in(8, 2)});
@@ -67,7 +67,7 @@ TEST_CASE("a catch-up begins with an eighth of the regions, changed last, latest
 }
 
 TEST_CASE("hot regions are one interval where nothing changed between them") {
-  Replica origin(LayerId{1, 1, 1});
+  Replica origin(LayerId{1, 1, 1}, kDefaultResolution);
   publish_every_second(origin, 24);
   publish(origin, {block_in(10, 2)});
   publish(origin, {block_in(40, 2)});
@@ -77,7 +77,7 @@ TEST_CASE("hot regions are one interval where nothing changed between them") {
 }
 
 TEST_CASE("a catch-up begins with sixteen regions at most") {
-  Replica origin(LayerId{1, 1, 1});
+  Replica origin(LayerId{1, 1, 1}, kDefaultResolution);
   publish_every_second(origin, 400);
   for (RegionOrdinal i = 0; i < 20; ++i) publish(origin, {block_in(20 * i, 2)});
   const Parts parts = catch_up_parts(origin, {});
@@ -90,8 +90,8 @@ TEST_CASE("who follows the parts of a catch-up ends equal to the sender") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     test::Random random(seed);
-    Replica origin(LayerId{1, 1, seed});
-    Replica copy(origin.id());
+    Replica origin(LayerId{1, 1, seed}, kDefaultResolution);
+    Replica copy(origin.id(), origin.resolution());
     const std::uint32_t joined_at = test::below(random, 12);
     for (std::uint32_t tick = 0; tick < 20; ++tick) {
       std::vector<CodedBlock> blocks;

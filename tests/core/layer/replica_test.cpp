@@ -100,9 +100,9 @@ TEST_CASE("a block is told as a whole where two thirds of what is known of it ar
   const auto voxels_told = [](std::uint32_t changed) {
     BlockCodes codes;
     for (std::uint32_t i = 0; i < 10; ++i) codes.set(40 * i, VoxelCode::occupied(3, false));
-    Replica origin(kLayer);
+    Replica origin(kLayer, kDefaultResolution);
     publish(origin, {{9, CodeBlock(codes)}});
-    Replica copy(kLayer);
+    Replica copy(kLayer, kDefaultResolution);
     CHECK(apply(copy, encoded(origin, 0)) == ApplyResult::kApplied);
     for (std::uint32_t i = 0; i < changed; ++i) codes.set(40 * i, VoxelCode::occupied(4, false));
     publish(origin, {{9, CodeBlock(codes)}});

@@ -37,7 +37,7 @@ struct Origin {
   void flush() { layer.publish(publisher.flush(layer)); }
 
   BlockCodes exact;
-  Replica layer{LayerId{1, 1, 1}};
+  Replica layer{LayerId{1, 1, 1}, kDefaultResolution};
   Publisher publisher;
 };
 
