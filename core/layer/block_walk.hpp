@@ -5,6 +5,7 @@
 // calls of ModelDecoder.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -65,12 +66,13 @@ class StateWalk {
 
   void run() {
     for (std::uint32_t cell = 0; cell < kCellsPerBlock; ++cell) code_cell(cell);
-    for (std::uint32_t cube = 0; cube < kCellsPerBlock * 8; ++cube) {
-      if (cells_.at(cube >> 3) == DiffState::kMixed) code_cube(cube);
+    for (std::uint32_t cell = 0; cell < kCellsPerBlock; ++cell) {
+      if (cells_.at(cell) != DiffState::kMixed) continue;
+      code_eight(cubes_, cell * 8, [&](auto... told) { code_cube(told...); });
     }
     for (std::uint32_t cube = 0; cube < kCellsPerBlock * 8; ++cube) {
       if (cubes_.at(cube) != DiffState::kMixed) continue;
-      for (std::uint32_t place = cube * 8; place < cube * 8 + 8; ++place) code_voxel(place);
+      code_eight(voxels_, cube * 8, [&](auto... told) { code_voxel(told...); });
     }
   }
 
@@ -83,9 +85,39 @@ class StateWalk {
     for (std::uint32_t cube = cell * 8; cube < cell * 8 + 8; ++cube) spread_to_cube(cube, state);
   }
 
-  void code_cube(std::uint32_t cube) {
-    const std::size_t context = kCube + cubes_.face_states(cube) * kStateBits;
-    const DiffState state = code_state(context, cube_state(codes_, cube));
+  // Calls code(part, before, is_last) for the eight parts of a mixed one, in order. `before` is the
+  // state of all parts before, from the fifth on; "mixed" if they are not alike.
+  template <std::uint32_t kEdge, typename Code>
+  static void code_eight(const PaddedGrid<DiffState, kEdge>& parts, std::uint32_t first,
+                         Code&& code) {
+    for (std::uint32_t i = 0; i < 4; ++i) code(first + i, DiffState::kMixed, false);
+    DiffState before = parts.at(first);
+    const auto compare = [&](std::uint32_t i) {
+      if (parts.at(first + i) != before) before = DiffState::kMixed;
+    };
+    for (std::uint32_t i = 1; i < 4; ++i) compare(i);
+    for (std::uint32_t i = 4; i < 8; ++i) {
+      code(first + i, before, i == 7);
+      compare(i);
+    }
+  }
+
+  static std::size_t neighbourhood(std::size_t face_states, DiffState before) {
+    return face_states + (before != DiffState::kMixed ? kFaceNeighbourhoods : 0);
+  }
+  // The three parts below the last are among those before.
+  static std::size_t last_neighbourhood(std::size_t face_states, DiffState before) {
+    return static_cast<std::size_t>(before) << 6 | face_states >> 6;
+  }
+
+  void code_cube(std::uint32_t cube, DiffState before, bool is_last) {
+    const std::size_t faces = cubes_.face_states(cube);
+    const DiffState told = cube_state(codes_, cube);
+    const DiffState state =
+        is_last && before != DiffState::kMixed
+            ? code_last_cube(kLastCube + last_neighbourhood(faces, before) * (kStateBits - 1),
+                             before, told)
+            : code_state(kCube + neighbourhood(faces, before) * kStateBits, told);
     if (state != DiffState::kMixed) spread_to_cube(cube, state);
   }
 
@@ -95,14 +127,13 @@ class StateWalk {
     store(cube * 8, 0xFF, state);
   }
 
-  void code_voxel(std::uint32_t place) {
-    const std::size_t context = kVoxel + voxels_.face_states(place) * (kStateBits - 1);
+  void code_voxel(std::uint32_t place, DiffState before, bool is_last) {
+    const std::size_t faces = voxels_.face_states(place);
     const DiffState told = voxel_state(codes_, place);
-    DiffState state = DiffState::kUnchanged;
-    if (!coder_.bit(context, told == DiffState::kUnchanged)) {
-      const bool occupied = coder_.bit(context + 1, told == DiffState::kOccupied);
-      state = occupied ? DiffState::kOccupied : DiffState::kFree;
-    }
+    const DiffState state =
+        is_last && before != DiffState::kMixed
+            ? code_other(kLastVoxel + last_neighbourhood(faces, before), before, told)
+            : code_whole(kVoxel + neighbourhood(faces, before) * (kStateBits - 1), told);
     voxels_.at(place) = state;
     store(place, 1, state);
   }
@@ -112,6 +143,23 @@ class StateWalk {
     if (coder_.bit(context + 1, told == DiffState::kMixed)) return DiffState::kMixed;
     return coder_.bit(context + 2, told == DiffState::kOccupied) ? DiffState::kOccupied
                                                                  : DiffState::kFree;
+  }
+  DiffState code_whole(std::size_t context, DiffState told) {
+    if (coder_.bit(context, told == DiffState::kUnchanged)) return DiffState::kUnchanged;
+    return coder_.bit(context + 1, told == DiffState::kOccupied) ? DiffState::kOccupied
+                                                                 : DiffState::kFree;
+  }
+  DiffState code_last_cube(std::size_t context, DiffState excluded, DiffState told) {
+    if (coder_.bit(context, told == DiffState::kMixed)) return DiffState::kMixed;
+    return code_other(context + 1, excluded, told);
+  }
+  // One of the two states, not mixed, that are not excluded.
+  DiffState code_other(std::size_t context, DiffState excluded, DiffState told) {
+    const DiffState low =
+        excluded == DiffState::kUnchanged ? DiffState::kFree : DiffState::kUnchanged;
+    const DiffState high =
+        excluded == DiffState::kOccupied ? DiffState::kFree : DiffState::kOccupied;
+    return coder_.bit(context, told == high) ? high : low;
   }
 
   void store(std::uint32_t first_place, std::uint64_t bits, DiffState state) {
@@ -141,11 +189,12 @@ struct NeighbourSummary {
   std::uint32_t stairs = 0;
   std::uint32_t without_data = 0;
   std::uint32_t with_data = 0;
-  std::uint32_t cost_sum = 0;
+  std::uint32_t cost_sum = 0;  // weighted: 3 across a face, 2 an edge, 1 a corner
+  std::uint32_t weight_sum = 0;
   std::uint32_t cost_low = 15;
   std::uint32_t cost_high = 0;
 
-  void add(Attributes attributes) {
+  void add(Attributes attributes, std::uint32_t axes_apart) {
     if (attributes == kNotTold) return;
     stairs += attributes >> 4;
     const std::uint32_t cost = attributes & 15;
@@ -154,7 +203,9 @@ struct NeighbourSummary {
       return;
     }
     ++with_data;
-    cost_sum += cost;
+    const std::uint32_t weight = 4 - axes_apart;
+    weight_sum += weight;
+    cost_sum += cost * weight;
     cost_low = std::min(cost_low, cost);
     cost_high = std::max(cost_high, cost);
   }
@@ -167,10 +218,14 @@ struct NeighbourSummary {
   }
   std::size_t cost_context() const {
     if (with_data == 0) return kCost;
-    const std::size_t mean = (cost_sum + with_data / 2) / with_data;
+    const std::size_t mean_in_halves = (2 * cost_sum + weight_sum / 2) / weight_sum;
+    return kCost + (mean_in_halves * kCostSpreads + spread()) * kCostTree;
+  }
+  std::size_t spread() const {
+    constexpr std::array<std::uint8_t, 16> kOfRange = {2, 3, 4, 5, 5, 6, 6, 6,
+                                                       6, 6, 6, 6, 6, 6, 6, 6};
     const std::uint32_t range = cost_high - cost_low;
-    const std::size_t spread = with_data == 1 ? 0 : range == 0 ? 1 : range <= 2 ? 2 : 3;
-    return kCost + (mean * kCostSpreads + spread) * kCostTree;
+    return range == 0 && with_data <= 2 ? with_data - 1 : kOfRange[range];
   }
 };
 
@@ -184,7 +239,9 @@ void code_attributes(Coder& coder, const PastNeighbours& past, BlockCodes& codes
     for_each_bit(codes.occupied[cell], [&](std::uint32_t bit) {
       const std::uint32_t place = cell << 6 | bit;
       NeighbourSummary around;
-      told.for_each_around(place, [&](Attributes attributes) { around.add(attributes); });
+      told.for_each_coded(place, [&](Attributes attributes, std::uint32_t axes_apart) {
+        around.add(attributes, axes_apart);
+      });
       const bool stair = coder.bit(around.stair_context(), contains(codes.stairs, place));
       CostCode cost = kNoCostData;
       if (!coder.bit(around.no_data_context(), codes.costs[place] == kNoCostData)) {

@@ -18,19 +18,25 @@ inline constexpr std::size_t kDiffStates = 4;
 // version.
 namespace diff_context {
 
-// States are decided by up to three bits: unchanged? mixed? occupied?
+// States are decided by up to three bits: unchanged? mixed? occupied? The last of eight parts is
+// not like the seven before if these are alike, which leaves it one bit less.
 inline constexpr std::size_t kStateBits = 3;
 inline constexpr std::size_t kPastNeighbourhoods = 64;    // states of 3 faces
 inline constexpr std::size_t kFaceNeighbourhoods = 4096;  // states of 6 faces
-inline constexpr std::size_t kNumberBits = 64;            // tree of a number's length
+inline constexpr std::size_t kFaceSets = 2;  // the second: four to six of eight, so far all alike
+inline constexpr std::size_t kLastNeighbourhoods = 192;  // seven alike, states of 3 faces
+inline constexpr std::size_t kNumberBits = 64;           // tree of a number's length
 inline constexpr std::size_t kCostTree = 16;
-inline constexpr std::size_t kCostMeans = 16;  // 0: no neighbour's cost is known
-inline constexpr std::size_t kCostSpreads = 4;
+inline constexpr std::size_t kCostMeans = 31;  // in half codes; 0: no neighbour's cost is known
+inline constexpr std::size_t kCostSpreads = 7;
 
 inline constexpr std::size_t kCell = 0;
 inline constexpr std::size_t kCube = kCell + kPastNeighbourhoods * kStateBits;
-inline constexpr std::size_t kVoxel = kCube + kFaceNeighbourhoods * kStateBits;
-inline constexpr std::size_t kStair = kVoxel + kFaceNeighbourhoods * (kStateBits - 1);
+inline constexpr std::size_t kLastCube = kCube + kFaceSets * kFaceNeighbourhoods * kStateBits;
+inline constexpr std::size_t kVoxel = kLastCube + kLastNeighbourhoods * (kStateBits - 1);
+inline constexpr std::size_t kLastVoxel =
+    kVoxel + kFaceSets * kFaceNeighbourhoods * (kStateBits - 1);
+inline constexpr std::size_t kStair = kLastVoxel + kLastNeighbourhoods;
 inline constexpr std::size_t kNoData = kStair + 4;
 inline constexpr std::size_t kCost = kNoData + 9;
 inline constexpr std::size_t kMoreBlocks = kCost + kCostMeans * kCostSpreads * kCostTree;

@@ -44,16 +44,20 @@ class PaddedGrid {
     return past_states(part) | states(here + kSteps[0], here + kSteps[1], here + kSteps[2]) << 6;
   }
 
-  // Calls visit(value) for the 26 parts around.
+  // Calls visit(value, axes_apart) for the parts around, 1 across a face, 2 an edge, 3 a corner,
+  // but for those that are above along some axes and below along none: in Morton order they come
+  // later.
   template <typename Visit>
-  void for_each_around(std::uint32_t part, Visit&& visit) const {
+  void for_each_coded(std::uint32_t part, Visit&& visit) const {
     const Value* const here = &values_[kPlaces[part]];
     for (std::ptrdiff_t z = -1; z <= 1; ++z) {
       for (std::ptrdiff_t y = -1; y <= 1; ++y) {
         const Value* const row = here + z * kSteps[2] + y * kSteps[1];
-        visit(row[-1]);
-        if (y != 0 || z != 0) visit(row[0]);
-        visit(row[1]);
+        const std::uint32_t axes_apart = (y != 0 ? 1U : 0U) + (z != 0 ? 1U : 0U);
+        visit(row[-1], axes_apart + 1);
+        if (y >= 0 && z >= 0) continue;
+        visit(row[0], axes_apart);
+        visit(row[1], axes_apart + 1);
       }
     }
   }

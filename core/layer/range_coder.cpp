@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/layer/range_coder.hpp"
 
-#include <cassert>
 #include <utility>
 
 namespace warren {
 namespace {
 
-constexpr std::uint32_t kSmallestRange = 1U << 24;
 constexpr std::uint64_t kCarry = std::uint64_t{1} << 32;
 
-constexpr std::uint32_t share_of(std::uint32_t range, Probability probability) {
-  return (range >> 16) * probability;
-}
-
 }  // namespace
-
-void RangeEncoder::encode(bool bit, Probability probability) {
-  assert(probability != 0);
-  const std::uint32_t share = share_of(state_.range, probability);
-  if (bit) {
-    state_.range = share;
-  } else {
-    state_.low += share;
-    state_.range -= share;
-  }
-  while (state_.range < kSmallestRange) {
-    state_.range <<= 8;
-    shift_byte_out();
-  }
-}
 
 void RangeEncoder::rewind(const State& state) {
   state_ = state;
@@ -38,7 +17,7 @@ void RangeEncoder::rewind(const State& state) {
 
 std::vector<std::uint8_t> RangeEncoder::finish() {
   // The range is wide enough to hold a number whose lower 24 bits are zeros, which are not sent.
-  state_.low = (state_.low + kSmallestRange - 1) & ~std::uint64_t{kSmallestRange - 1};
+  state_.low = (state_.low + kRangeMin - 1) & ~std::uint64_t{kRangeMin - 1};
   if (state_.withheld_count > 0) release_withheld();
   bytes_.push_back(static_cast<std::uint8_t>(state_.low >> 24));
   return std::exchange(bytes_, {});
@@ -53,7 +32,7 @@ void RangeEncoder::shift_byte_out() {
     state_.withheld = static_cast<std::uint8_t>(state_.low >> 24);
     state_.withheld_count = 1;
   }
-  state_.low = (state_.low & (kSmallestRange - 1)) << 8;
+  state_.low = (state_.low & (kRangeMin - 1)) << 8;
 }
 
 void RangeEncoder::release_withheld() {
@@ -66,29 +45,6 @@ void RangeEncoder::release_withheld() {
 
 RangeDecoder::RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
   for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next_byte();
-}
-
-bool RangeDecoder::decode(Probability probability) {
-  assert(probability != 0);
-  const std::uint32_t share = share_of(range_, probability);
-  const bool bit = code_ < share;
-  if (bit) {
-    range_ = share;
-  } else {
-    code_ -= share;
-    range_ -= share;
-  }
-  while (range_ < kSmallestRange) {
-    range_ <<= 8;
-    code_ = code_ << 8 | next_byte();
-  }
-  return bit;
-}
-
-std::uint8_t RangeDecoder::next_byte() {
-  const std::uint8_t byte = read_ < bytes_.size() ? bytes_[read_] : std::uint8_t{0};
-  ++read_;
-  return byte;
 }
 
 }  // namespace warren

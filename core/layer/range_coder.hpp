@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,12 @@ constexpr void adapt(Probability& probability, bool bit) {
   constexpr int kRate = 4;
   probability = static_cast<Probability>(bit ? probability + ((65536 - probability) >> kRate)
                                              : probability - (probability >> kRate));
+}
+
+inline constexpr std::uint32_t kRangeMin = 1U << 24;
+
+constexpr std::uint32_t share_of(std::uint32_t range, Probability probability) {
+  return (range >> 16) * probability;
 }
 
 // A binary range coder (G. N. N. Martin, 1979) in integers, whose state can be put back to an
@@ -71,5 +78,43 @@ class RangeDecoder {
   std::uint32_t range_ = 0xFFFFFFFFU;
   std::uint32_t code_ = 0;
 };
+
+inline void RangeEncoder::encode(bool bit, Probability probability) {
+  assert(probability != 0);
+  const std::uint32_t share = share_of(state_.range, probability);
+  if (bit) {
+    state_.range = share;
+  } else {
+    state_.low += share;
+    state_.range -= share;
+  }
+  while (state_.range < kRangeMin) {
+    state_.range <<= 8;
+    shift_byte_out();
+  }
+}
+
+inline bool RangeDecoder::decode(Probability probability) {
+  assert(probability != 0);
+  const std::uint32_t share = share_of(range_, probability);
+  const bool bit = code_ < share;
+  if (bit) {
+    range_ = share;
+  } else {
+    code_ -= share;
+    range_ -= share;
+  }
+  while (range_ < kRangeMin) {
+    range_ <<= 8;
+    code_ = code_ << 8 | next_byte();
+  }
+  return bit;
+}
+
+inline std::uint8_t RangeDecoder::next_byte() {
+  const std::uint8_t byte = read_ < bytes_.size() ? bytes_[read_] : std::uint8_t{0};
+  ++read_;
+  return byte;
+}
 
 }  // namespace warren

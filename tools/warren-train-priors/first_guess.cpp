@@ -37,18 +37,32 @@ void set_states(DiffPriors& priors, std::size_t first, const Weights& weights, b
   priors[first + (can_be_mixed ? 2 : 1)] = odds(occupied, free);
 }
 
+// The last of eight by the three parts above it. The two states that are not excluded stand in the
+// order of their numbers; the coder asks for the higher.
+void set_lasts(DiffPriors& priors) {
+  for (std::size_t last = 0; last < kLastNeighbourhoods; ++last) {
+    const std::size_t excluded = last >> 6;
+    const std::size_t low = excluded == 0 ? 1 : 0;
+    const std::size_t high = excluded == 2 ? 1 : 2;
+    const Weights weights = weigh_neighbours(last, 3, {2, 2, 2, 4}, {6, 6, 4, 4});
+    priors[kLastCube + last * (kStateBits - 1)] = odds(weights[3], weights[low] + weights[high]);
+    priors[kLastCube + last * (kStateBits - 1) + 1] = odds(weights[high], weights[low]);
+    priors[kLastVoxel + last] = odds(weights[high], weights[low]);
+  }
+}
+
 // Costs peak at their neighbours' mean, the less they spread the more.
-void set_costs(DiffPriors& priors, std::size_t mean, std::size_t spread) {
-  constexpr std::array<int, kCostSpreads> kPeaks = {24, 48, 12, 4};
+void set_costs(DiffPriors& priors, std::size_t mean_in_halves, std::size_t spread) {
+  constexpr std::array<int, kCostSpreads> kPeaks = {24, 36, 48, 24, 12, 6, 4};
   std::array<int, 2 * kCostTree> weights{};
   for (std::size_t cost = 1; cost < kCostTree; ++cost) {
-    const int distance = std::abs(static_cast<int>(cost) - static_cast<int>(mean));
+    const int halves = std::abs(2 * static_cast<int>(cost) - static_cast<int>(mean_in_halves));
     weights[kCostTree + cost] =
-        mean == 0 ? (cost == 1 ? 16 : 2) : 1 + kPeaks[spread] / (1 + 2 * distance * distance);
+        mean_in_halves == 0 ? (cost == 1 ? 16 : 2) : 1 + 2 * kPeaks[spread] / (2 + halves * halves);
   }
   for (std::size_t node = kCostTree - 1; node > 0; --node) {
     weights[node] = weights[2 * node] + weights[2 * node + 1];
-    priors[kCost + (mean * kCostSpreads + spread) * kCostTree + node] =
+    priors[kCost + (mean_in_halves * kCostSpreads + spread) * kCostTree + node] =
         odds(weights[2 * node + 1], weights[2 * node]);
   }
 }
@@ -72,12 +86,13 @@ DiffPriors first_guess() {
     set_states(priors, kCell + past * kStateBits,
                weigh_neighbours(past, 3, {4, 2, 1, 4}, {4, 4, 1, 6}), true);
   }
-  for (std::size_t faces = 0; faces < kFaceNeighbourhoods; ++faces) {
+  for (std::size_t faces = 0; faces < kFaceSets * kFaceNeighbourhoods; ++faces) {
     set_states(priors, kCube + faces * kStateBits,
                weigh_neighbours(faces, 6, {2, 2, 1, 4}, {6, 6, 1, 4}), true);
     set_states(priors, kVoxel + faces * (kStateBits - 1),
                weigh_neighbours(faces, 6, {1, 1, 1, 0}, {5, 5, 5, 0}), false);
   }
+  set_lasts(priors);
   for (std::size_t mean = 0; mean < kCostMeans; ++mean) {
     for (std::size_t spread = 0; spread < kCostSpreads; ++spread) set_costs(priors, mean, spread);
   }
