@@ -81,7 +81,7 @@ std::vector<Replica> quarters_of(const Replica& layer) {
     std::copy_if(blocks.begin(), blocks.end(), std::back_inserter(within), [&](const auto& block) {
       return bounds.quarter_holds(quarter, middle_of(block.block));
     });
-    quarters.emplace_back(LayerId{quarter + 1, 1, 1}).publish(within);
+    quarters.emplace_back(LayerId{quarter + 1, 1, 1}, layer.resolution()).publish(within);
   }
   return quarters;
 }
