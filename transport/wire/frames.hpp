@@ -27,7 +27,8 @@ struct HelloFrame {
   friend bool operator==(const HelloFrame&, const HelloFrame&) = default;
 };
 
-// What arrived. Precondition of encoding: ranges not empty, not touching, highest first.
+// What arrived. Precondition of encoding: at least one range; none empty, no two touching, highest
+// first; the delay below 2^32 microseconds.
 struct AckFrame {
   static constexpr std::size_t kRangesMax = 32;
   std::vector<NumberRange> ranges;
@@ -35,6 +36,11 @@ struct AckFrame {
   std::uint32_t arrived_us = 0;
   // From that arrival to the sending of this frame.
   Duration delay{};
+  // Sums over all pairs of consecutive numbers that both arrived so far, modulo 2^32: the IP bytes
+  // of the second, and the microseconds from the first's arrival to the second's (signed: they may
+  // come in the other order). What the link carries while it has no rest, whatever is lost beside.
+  std::uint32_t pair_bytes = 0;
+  std::uint32_t pair_us = 0;
   friend bool operator==(const AckFrame&, const AckFrame&) = default;
 };
 
@@ -46,6 +52,7 @@ struct PingFrame {
 
 struct UrgentFrame {
   static constexpr std::size_t kBytesMax = 64;
+  static constexpr std::size_t kOverheadMax = 7;
   std::uint32_t number = 0;  // of the sender's boot
   std::vector<std::uint8_t> bytes;
   friend bool operator==(const UrgentFrame&, const UrgentFrame&) = default;
@@ -53,6 +60,7 @@ struct UrgentFrame {
 
 struct TelemetryFrame {
   static constexpr std::size_t kBytesMax = 1000;
+  static constexpr std::size_t kOverheadMax = 11;
   std::uint16_t key = 0;
   std::uint32_t version = 0;  // of this key, of the sender's boot
   std::vector<std::uint8_t> bytes;
@@ -69,8 +77,12 @@ struct ParcelKey {
 
 enum class ParcelClass : std::uint8_t { kControl, kMessage };
 
+// A part of a parcel, or all of it; without bytes it asks what the receiver has. Precondition of
+// encoding: it lies within the total, and finished_before is not above the parcel's own number.
 struct ParcelFrame {
   static constexpr std::uint32_t kBytesMax = 1'000'000;
+  // What a frame takes beside its bytes, at most; 11 to 18 as long as numbers are small.
+  static constexpr std::size_t kOverheadMax = 27;
   ParcelKey parcel;
   ParcelClass priority = ParcelClass::kMessage;
   // All parcels of the stream before this number are finished on the sender's side: the receiver
@@ -95,6 +107,7 @@ enum class MapClass : std::uint8_t { kFresh, kBacklog };
 
 // One packet of the layer above. Always the last frame of a packet: its bytes go to the end.
 struct MapFrame {
+  static constexpr std::size_t kOverhead = 1;
   MapClass priority = MapClass::kBacklog;
   std::vector<std::uint8_t> bytes;
   friend bool operator==(const MapFrame&, const MapFrame&) = default;
