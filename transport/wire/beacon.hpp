@@ -15,7 +15,7 @@ struct Beacon {
   static constexpr std::size_t kHeardMax = 8;
 
   struct Heard {
-    std::uint32_t boot = 0;      // the low half of its boot id
+    std::uint32_t boot = 0;       // the low half of its boot id
     std::uint8_t loss_256th = 0;  // of its beacons and packets, as the sender saw it
     friend bool operator==(const Heard&, const Heard&) = default;
   };

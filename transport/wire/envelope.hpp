@@ -35,7 +35,6 @@ std::optional<PacketHeader> read_packet_header(std::span<const std::uint8_t> pac
 std::vector<std::uint8_t> seal(const Key& key, const PacketHeader& header,
                                std::span<const std::uint8_t> content);
 // The content; nothing if the packet was not sealed so.
-std::optional<std::vector<std::uint8_t>> open(const Key& key,
-                                              std::span<const std::uint8_t> packet);
+std::optional<std::vector<std::uint8_t>> open(const Key& key, std::span<const std::uint8_t> packet);
 
 }  // namespace warren

@@ -24,7 +24,7 @@ class KeySchedule {
 // All keys from one secret that every member of the fleet has.
 class PresharedKeys : public KeySchedule {
  public:
-  explicit PresharedKeys(const Key& fleet_key) : fleet_key_(fleet_key) {}
+  explicit PresharedKeys(const Key& fleet_key);
   Key group_key(BootId sender) const override;
   Key pair_key(BootId sender, BootId receiver) const override;
 

@@ -6,7 +6,7 @@
 
 namespace warren {
 
-// Which packet numbers of one key have come: each is taken once, and none that is more than kWidth
+// Which packet numbers of one key have come: each is taken once, and none that is kWidth or more
 // older than the latest.
 class ReplayWindow {
  public:
