@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "transport/mesh_time.hpp"
+
+namespace warren {
+
+// When the next packet may go out on an interface, and to which peer. A packet to a peer costs the
+// airtime bytes / pace of its link; all peers share the interface, and those that want to send get
+// equal airtime (deficit round robin).
+class NodePacer {
+ public:
+  using Peer = std::uint32_t;  // the owner's number for it
+
+  // The ceiling is for all that the node sends there.
+  explicit NodePacer(std::optional<double> ceiling_bit_s) : ceiling_(ceiling_bit_s) {}
+
+  // Who wants to send a paced packet now. A peer that cannot (nothing to send, no room in flight)
+  // should be unset, or it stalls nobody but itself.
+  void want(Peer peer, bool wants);
+  void forget(Peer peer);
+
+  // No packet before this; the past means at once.
+  MeshTime ready_at() const { return ready_at_; }
+  // The peer whose turn it is; nothing if it is too early or nobody wants.
+  std::optional<Peer> next(MeshTime now);
+
+  // Every packet of the node on this interface is told, whether it waited for its turn or not.
+  // pace: Flow::pace() of the peer, IP bytes/s; a group packet or a beacon: the slowest's.
+  // True: the interface had no rest between the packet before and this one.
+  bool on_sent(MeshTime now, std::optional<Peer> peer, std::size_t ip_bytes, double pace);
+
+ private:
+  struct Share {
+    bool wants = false;
+    Duration deficit{};  // airtime it may still use in this round
+  };
+  std::optional<double> ceiling_;
+  std::map<Peer, Share> shares_;
+  std::optional<Peer> turn_;
+  MeshTime ready_at_{};
+};
+
+}  // namespace warren

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "transport/flow/ticket.hpp"
+#include "transport/mesh_time.hpp"
+#include "transport/wire/frames.hpp"
+
+namespace warren {
+
+// What the acknowledgements of one peer say, in figures; sums run from the first packet on.
+struct AckReport {
+  // The largest number, if it is news: when it was sent, and by the receiver's clock (modulo 2^32
+  // microseconds) when it arrived.
+  struct Largest {
+    MeshTime sent;
+    std::uint32_t arrived_us = 0;
+    std::size_t ip_bytes = 0;
+    std::optional<Duration> rtt;  // none if the receiver held the acknowledgement for long
+  };
+  // Over all pairs of consecutive numbers that both arrived, as the AckFrame's sums: the bytes of
+  // the second, the time from one sending to the next, and how much of it the link was meant to
+  // need (bytes / pace).
+  struct PairSums {
+    double ip_bytes = 0.0;
+    Duration spacing{};
+    Duration airtime{};
+  };
+  std::optional<Largest> largest;
+  PairSums pairs;
+  std::size_t newly_acked = 0;  // packets, late ones included
+  std::size_t newly_lost = 0;
+};
+
+// What was sent to one peer and what became of it. Numbers rise by one with each packet. Loss is
+// found by later packets that arrived (RFC 9002, 6.1, with a reordering allowance that adapts), and
+// at the tail by time, without back-off. Bounded: at most kPacketsMax records.
+class SentPackets {
+ public:
+  static constexpr std::size_t kPacketsMax = 16384;
+
+  struct Packet {
+    MeshTime sent;
+    std::size_t ip_bytes = 0;
+    Duration airtime{};  // bytes / pace when it was sent
+    bool wants_ack = false;
+    std::vector<Ticket> tickets;
+  };
+  struct Settled {
+    std::vector<Ticket> acked;  // late ones, told lost before, included
+    std::vector<Ticket> lost;
+    AckReport report;
+  };
+
+  // Precondition: number is one more than the last (any at first); room().
+  void on_sent(std::uint64_t number, Packet packet);
+  Settled on_ack(MeshTime now, const AckFrame& ack);
+  // Packets lost by time.
+  Settled on_time(MeshTime now);
+  // When on_time() may find one.
+  MeshTime loss_time() const;
+
+  bool room() const { return packets_.size() < kPacketsMax; }
+  std::size_t bytes_in_flight() const { return bytes_in_flight_; }
+  std::size_t packets_in_flight() const { return packets_in_flight_; }
+
+  std::optional<Duration> smoothed_rtt() const { return smoothed_rtt_; }
+  Duration rtt_variation() const { return rtt_variation_; }
+  // Share of packets lost lately.
+  double loss() const { return loss_; }
+
+  // The oldest in flight, sent before the time given, that was not repeated yet: it is now.
+  std::optional<std::vector<Ticket>> take_repeat(MeshTime sent_before);
+
+  std::size_t memory_bytes() const;
+
+ private:
+  enum class Fate : std::uint8_t { kInFlight, kAcked, kLost };
+  struct Record {
+    Packet packet;
+    Fate fate = Fate::kInFlight;
+    bool repeated = false;
+  };
+
+  std::uint64_t end() const { return first_ + packets_.size(); }
+  Record* find(std::uint64_t number);
+  void acknowledge(MeshTime now, std::uint64_t number, Settled& settled);
+  void lose(Record& record, Settled& settled);
+  void lose_overtaken(Settled& settled);
+  void add_pairs(std::uint64_t number);
+  void measure_rtt(Duration rtt);
+  void measure_loss(bool lost);
+  void forget_settled(MeshTime now);
+  Duration patience() const;
+
+  std::deque<Record> packets_;  // numbers first_ to end() - 1
+  std::uint64_t first_ = 0;
+  std::uint64_t undecided_ = 0;  // none before this is in flight
+  std::optional<std::uint64_t> largest_acked_;
+  std::size_t bytes_in_flight_ = 0;
+  std::size_t packets_in_flight_ = 0;
+  AckReport::PairSums pairs_;
+
+  std::optional<Duration> smoothed_rtt_;
+  Duration rtt_variation_{};
+  Duration reordering_{};   // how much later than its successors a packet may come
+  Duration ack_silence_{};  // how long acknowledgements may stay away while packets are in flight
+  MeshTime last_decay_{};
+  double loss_ = 0.0;
+};
+
+}  // namespace warren
