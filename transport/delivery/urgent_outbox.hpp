@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "transport/delivery/delivery_config.hpp"
+#include "transport/delivery/delivery_counts.hpp"
+#include "transport/delivery/outgoing_frame.hpp"
+#include "transport/mesh_time.hpp"
+
+namespace warren {
+
+// Sends each message in spaced copies until one is acknowledged or the message is stale. They may
+// arrive in another order.
+class UrgentOutbox {
+ public:
+  UrgentOutbox(const UrgentConfig& config, OutboxCounts& counts)
+      : config_(config), counts_(counts) {}
+
+  // Precondition: at most UrgentFrame::kBytesMax.
+  void send(MeshTime now, std::span<const std::uint8_t> bytes);
+  // The longest due one that fits; `rtt` spaces the copies.
+  std::optional<OutgoingFrame> next(MeshTime now, std::size_t room, Duration rtt);
+  std::optional<OutgoingFrame> again(const UrgentTicket& ticket) const;
+  // When next() has something, or a message becomes stale.
+  MeshTime next_due() const;
+  void on_acked(const UrgentTicket& ticket);
+  std::size_t unacknowledged() const { return messages_.size(); }
+
+ private:
+  struct Message {
+    std::uint32_t number = 0;
+    MeshTime stale_at;
+    MeshTime due;
+    int copies_sent = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+  void drop_stale(MeshTime now);
+
+  UrgentConfig config_;
+  OutboxCounts& counts_;
+  std::uint32_t next_number_ = 0;
+  std::deque<Message> messages_;  // by number
+};
+
+}  // namespace warren
