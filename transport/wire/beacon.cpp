@@ -4,8 +4,8 @@
 #include <cassert>
 #include <limits>
 
-#include "transport/wire/byte_reader.hpp"
-#include "transport/wire/byte_writer.hpp"
+#include "transport/wire/packet_reader.hpp"
+#include "transport/wire/packet_writer.hpp"
 
 namespace warren {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::uint64_t kMaxOf = std::numeric_limits<T>::max();
 std::vector<std::uint8_t> encode(const Beacon& beacon) {
   assert(beacon.heard.size() <= Beacon::kHeardMax);
   std::vector<std::uint8_t> content;
-  ByteWriter writer(content);
+  PacketWriter writer(content);
   writer.number(beacon.member.number);
   writer.number(beacon.uptime_s);
   writer.number(beacon.period_ms);
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> encode(const Beacon& beacon) {
 }
 
 std::optional<Beacon> read_beacon(std::span<const std::uint8_t> content) {
-  ByteReader reader(content);
+  PacketReader reader(content);
   const auto member = reader.number(kMaxOf<std::uint32_t>);
   const auto uptime_s = reader.number(kMaxOf<std::uint32_t>);
   const auto period_ms = reader.number(kMaxOf<std::uint16_t>);

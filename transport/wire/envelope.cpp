@@ -6,8 +6,8 @@
 
 #include <sodium/crypto_aead_chacha20poly1305.h>
 
-#include "transport/wire/byte_reader.hpp"
-#include "transport/wire/byte_writer.hpp"
+#include "transport/wire/packet_reader.hpp"
+#include "transport/wire/packet_writer.hpp"
 
 namespace warren {
 namespace {
@@ -36,7 +36,7 @@ std::optional<PacketHeader> read_packet_header(std::span<const std::uint8_t> pac
       packet[1] != 0) {
     return std::nullopt;
   }
-  ByteReader reader(packet.subspan(2));
+  PacketReader reader(packet.subspan(2));
   const BootId sender{*reader.fixed(8)};
   return PacketHeader{static_cast<PacketType>(type), sender, *reader.fixed(6)};
 }
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> seal(const Key& key, const PacketHeader& header,
   assert(header.number < kPacketNumberEnd);
   std::vector<std::uint8_t> packet;
   packet.reserve(kEnvelopeBytes + content.size());
-  ByteWriter writer(packet);
+  PacketWriter writer(packet);
   writer.byte(static_cast<std::uint8_t>(kVersion << 4 | static_cast<std::uint8_t>(header.type)));
   writer.byte(0);
   writer.fixed(header.sender.bits, 8);

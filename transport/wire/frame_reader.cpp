@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "transport/wire/byte_reader.hpp"
 #include "transport/wire/frame_types.hpp"
 #include "transport/wire/frames.hpp"
+#include "transport/wire/packet_reader.hpp"
 
 namespace warren {
 namespace {
@@ -17,7 +17,7 @@ std::vector<std::uint8_t> copy_of(std::span<const std::uint8_t> bytes) {
 }
 
 // A length and as many bytes.
-std::optional<std::vector<std::uint8_t>> read_bytes(ByteReader& reader, std::size_t max) {
+std::optional<std::vector<std::uint8_t>> read_bytes(PacketReader& reader, std::size_t max) {
   const auto length = reader.number(max);
   if (!length) return std::nullopt;
   const auto bytes = reader.raw(*length);
@@ -25,14 +25,14 @@ std::optional<std::vector<std::uint8_t>> read_bytes(ByteReader& reader, std::siz
   return copy_of(*bytes);
 }
 
-std::optional<Frame> read_hello(ByteReader& reader, bool wants_answer) {
+std::optional<Frame> read_hello(PacketReader& reader, bool wants_answer) {
   const auto member = reader.number(kMaxOf<std::uint32_t>);
   if (!member) return std::nullopt;
   return HelloFrame{{static_cast<std::uint32_t>(*member)}, wants_answer};
 }
 
 // The next range below `below`; at the first there is no gap.
-std::optional<NumberRange> read_range_below(ByteReader& reader, std::uint64_t below, bool first) {
+std::optional<NumberRange> read_range_below(PacketReader& reader, std::uint64_t below, bool first) {
   const auto number = reader.number(kPacketNumberEnd - 1);
   const auto length_less_one = reader.number(kPacketNumberEnd - 1);
   if (!number || !length_less_one) return std::nullopt;
@@ -42,7 +42,7 @@ std::optional<NumberRange> read_range_below(ByteReader& reader, std::uint64_t be
   return NumberRange{end - *length_less_one - 1, end};
 }
 
-std::optional<Frame> read_ack(ByteReader& reader) {
+std::optional<Frame> read_ack(PacketReader& reader) {
   const auto count = reader.number(AckFrame::kRangesMax);
   if (!count || *count == 0) return std::nullopt;
   AckFrame frame;
@@ -55,13 +55,17 @@ std::optional<Frame> read_ack(ByteReader& reader) {
   }
   const auto arrived_us = reader.fixed(4);
   const auto delay_us = reader.number(kAckDelayMaxUs);
-  if (!arrived_us || !delay_us) return std::nullopt;
+  const auto pair_bytes = reader.fixed(4);
+  const auto pair_us = reader.fixed(4);
+  if (!arrived_us || !delay_us || !pair_bytes || !pair_us) return std::nullopt;
   frame.arrived_us = static_cast<std::uint32_t>(*arrived_us);
   frame.delay = Duration(*delay_us);
+  frame.pair_bytes = static_cast<std::uint32_t>(*pair_bytes);
+  frame.pair_us = static_cast<std::uint32_t>(*pair_us);
   return frame;
 }
 
-std::optional<Frame> read_ping(ByteReader& reader) {
+std::optional<Frame> read_ping(PacketReader& reader) {
   const auto padding = reader.number(kMaxOf<std::uint16_t>);
   if (!padding) return std::nullopt;
   const auto zeros = reader.raw(*padding);
@@ -72,7 +76,7 @@ std::optional<Frame> read_ping(ByteReader& reader) {
   return PingFrame{static_cast<std::uint16_t>(*padding)};
 }
 
-std::optional<Frame> read_urgent(ByteReader& reader) {
+std::optional<Frame> read_urgent(PacketReader& reader) {
   const auto number = reader.number(kMaxOf<std::uint32_t>);
   if (!number) return std::nullopt;
   auto bytes = read_bytes(reader, UrgentFrame::kBytesMax);
@@ -80,7 +84,7 @@ std::optional<Frame> read_urgent(ByteReader& reader) {
   return UrgentFrame{static_cast<std::uint32_t>(*number), std::move(*bytes)};
 }
 
-std::optional<Frame> read_telemetry(ByteReader& reader) {
+std::optional<Frame> read_telemetry(PacketReader& reader) {
   const auto key = reader.number(kMaxOf<std::uint16_t>);
   const auto version = reader.number(kMaxOf<std::uint32_t>);
   if (!key || !version) return std::nullopt;
@@ -90,14 +94,14 @@ std::optional<Frame> read_telemetry(ByteReader& reader) {
                         std::move(*bytes)};
 }
 
-std::optional<ParcelKey> read_parcel_key(ByteReader& reader) {
+std::optional<ParcelKey> read_parcel_key(PacketReader& reader) {
   const auto stream = reader.fixed(8);
   const auto number = reader.number(kMaxOf<std::uint32_t>);
   if (!stream || !number) return std::nullopt;
   return ParcelKey{*stream, static_cast<std::uint32_t>(*number)};
 }
 
-std::optional<std::uint32_t> read_finished_before(ByteReader& reader, std::uint8_t short_age,
+std::optional<std::uint32_t> read_finished_before(PacketReader& reader, std::uint8_t short_age,
                                                   std::uint32_t number) {
   std::uint64_t age = short_age;
   if (short_age == kParcelAgeLong) {
@@ -110,7 +114,7 @@ std::optional<std::uint32_t> read_finished_before(ByteReader& reader, std::uint8
 }
 
 // Offset, total and bytes, as the form says them. What another form says is not taken.
-bool read_parcel_bytes(ByteReader& reader, ParcelForm form, ParcelFrame& frame) {
+bool read_parcel_bytes(PacketReader& reader, ParcelForm form, ParcelFrame& frame) {
   std::uint64_t span = 0;
   if (form != ParcelForm::kWhole) {
     const auto field = reader.fixed(kParcelSpanBytes);
@@ -142,7 +146,7 @@ bool read_parcel_bytes(ByteReader& reader, ParcelForm form, ParcelFrame& frame) 
   return false;
 }
 
-std::optional<Frame> read_parcel(ByteReader& reader, std::uint8_t type) {
+std::optional<Frame> read_parcel(PacketReader& reader, std::uint8_t type) {
   const auto form = static_cast<ParcelForm>(type >> kParcelFormShift & 3);
   const auto short_age = static_cast<std::uint8_t>(type & kParcelAgeLong);
   if (form > ParcelForm::kPart) return std::nullopt;
@@ -158,7 +162,7 @@ std::optional<Frame> read_parcel(ByteReader& reader, std::uint8_t type) {
   return frame;
 }
 
-std::optional<Frame> read_parcel_state(ByteReader& reader, bool finished) {
+std::optional<Frame> read_parcel_state(PacketReader& reader, bool finished) {
   const auto key = read_parcel_key(reader);
   if (!key) return std::nullopt;
   const auto count = reader.number(ParcelStateFrame::kRangesMax);
@@ -178,11 +182,11 @@ std::optional<Frame> read_parcel_state(ByteReader& reader, bool finished) {
   return frame;
 }
 
-std::optional<Frame> read_map(ByteReader& reader, MapClass priority) {
+std::optional<Frame> read_map(PacketReader& reader, MapClass priority) {
   return MapFrame{priority, copy_of(*reader.raw(reader.left()))};
 }
 
-std::optional<Frame> read_frame(ByteReader& reader) {
+std::optional<Frame> read_frame(PacketReader& reader) {
   const auto type = static_cast<std::uint8_t>(*reader.fixed(1));
   if (type >= static_cast<std::uint8_t>(FrameType::kParcel)) return read_parcel(reader, type);
   switch (static_cast<FrameType>(type)) {
@@ -215,7 +219,7 @@ std::optional<Frame> read_frame(ByteReader& reader) {
 
 std::optional<std::vector<Frame>> read_frames(std::span<const std::uint8_t> content) {
   std::vector<Frame> frames;
-  ByteReader reader(content);
+  PacketReader reader(content);
   while (!reader.at_end()) {
     auto frame = read_frame(reader);
     if (!frame) return std::nullopt;

@@ -4,14 +4,14 @@
 #include <cassert>
 #include <span>
 
-#include "transport/wire/byte_writer.hpp"
 #include "transport/wire/frame_types.hpp"
 #include "transport/wire/frames.hpp"
+#include "transport/wire/packet_writer.hpp"
 
 namespace warren {
 namespace {
 
-// Takes what ByteWriter takes, and only counts it.
+// Takes what PacketWriter takes, and only counts it.
 class ByteCounter {
  public:
   std::size_t bytes() const { return bytes_; }
@@ -56,6 +56,8 @@ void write(Writer& writer, const AckFrame& frame) {
   }
   writer.fixed(frame.arrived_us, 4);
   writer.number(static_cast<std::uint64_t>(frame.delay.count()));
+  writer.fixed(frame.pair_bytes, 4);
+  writer.fixed(frame.pair_us, 4);
 }
 
 template <typename Writer>
@@ -150,7 +152,7 @@ std::size_t encoded_bytes(const Frame& frame) {
 }
 
 void append(std::vector<std::uint8_t>& content, const Frame& frame) {
-  ByteWriter writer(content);
+  PacketWriter writer(content);
   std::visit([&](const auto& kind) { write(writer, kind); }, frame);
 }
 

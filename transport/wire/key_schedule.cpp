@@ -9,7 +9,7 @@
 #include <sodium/core.h>
 #include <sodium/crypto_generichash_blake2b.h>
 
-#include "transport/wire/byte_writer.hpp"
+#include "transport/wire/packet_writer.hpp"
 
 namespace warren {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 // another, so no two purposes share an input.
 Key derive(const Key& fleet_key, std::string_view label, std::initializer_list<BootId> boots) {
   std::vector<std::uint8_t> input(label.begin(), label.end());
-  ByteWriter writer(input);
+  PacketWriter writer(input);
   for (const BootId boot : boots) writer.fixed(boot.bits, 8);
   Key key;
   crypto_generichash_blake2b(key.data(), key.size(), input.data(), input.size(), fleet_key.data(),

@@ -8,11 +8,11 @@
 
 namespace warren {
 
-// Takes fields from the front of a packet, as ByteWriter put them. Nothing when the bytes end
+// Takes fields from the front of a packet, as PacketWriter put them. Nothing when the bytes end
 // early, when a number is not in its shortest form or when it is above the caller's limit.
-class ByteReader {
+class PacketReader {
  public:
-  explicit ByteReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  explicit PacketReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
 
   bool at_end() const { return rest_.empty(); }
   std::size_t left() const { return rest_.size(); }

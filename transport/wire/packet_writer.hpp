@@ -10,9 +10,9 @@ namespace warren {
 
 // Appends fields to a packet: fixed ones little endian, numbers as LEB128 (7 bits per byte, lowest
 // first, in as few bytes as can be).
-class ByteWriter {
+class PacketWriter {
  public:
-  explicit ByteWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+  explicit PacketWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
 
   void byte(std::uint8_t value) { bytes_.push_back(value); }
 
