@@ -49,11 +49,15 @@ class Inbox {
   void on_peer_restarted();
 
   const InboxCounts& counts() const { return counts_; }
-  std::size_t memory_bytes() const;
+  void drop_partial() { parcels_.drop_partial(); }
+  std::size_t unfinished_bytes() const { return parcels_.unfinished_bytes(); }
   SavedIncoming save() const { return parcels_.save(); }
   void restore(const SavedIncoming& saved) { parcels_.restore(saved); }
 
  private:
+  std::optional<Received> on_urgent(UrgentFrame&& frame);
+  std::optional<Received> on_telemetry(TelemetryFrame&& frame);
+
   InboxCounts counts_;
   UrgentWindow urgent_;
   TelemetryVersions telemetry_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <tl/expected.hpp>
 
@@ -54,10 +55,10 @@ class Outbox {
     return parcels_.on_state(now, state);
   }
   // A new life of the peer was heard: it knows nothing but what its store has.
-  void on_peer_restarted(MeshTime now);
+  void on_peer_restarted();
 
   const OutboxCounts& counts() const { return counts_; }
-  std::size_t memory_bytes() const;
+  std::size_t unfinished_bytes() const { return parcels_.unfinished_bytes(); }
   SavedOutgoing save() const { return parcels_.save(); }
   void restore(SavedOutgoing saved) { parcels_.restore(std::move(saved)); }
 

@@ -10,8 +10,8 @@ namespace warren {
 // Memory for the unfinished parcels of one direction, of all peers together.
 class ParcelBudget {
  public:
-  // What a parcel takes beside its bytes.
-  static constexpr std::size_t kPerParcel = 256;
+  // What is charged for a parcel: its bytes and what it takes beside them.
+  static constexpr std::size_t charge(std::size_t bytes) { return bytes + 256; }
 
   explicit ParcelBudget(std::size_t limit_bytes) : limit_(limit_bytes) {}
 

@@ -68,7 +68,7 @@ class ParcelInbox {
   void forget_before(std::uint32_t number);
   bool contradicts(const ParcelFrame& fragment) const;
   Parcel* admit(const ParcelFrame& fragment);
-  bool take_room(std::size_t bytes, ParcelClass priority);
+  bool take_room(std::size_t charge, ParcelClass priority);
   bool evict_after(std::uint32_t number);
   std::optional<Arrived> store(const ParcelFrame& fragment, Parcel& parcel);
   void release(std::map<std::uint32_t, Parcel>::iterator parcel);

@@ -43,13 +43,11 @@ class ParcelOutbox {
                                               std::span<const std::uint8_t> bytes);
   // A fragment; every other one is of the parcel that has least left to send, so that a short one
   // is not held up by a long one, and the rest of the oldest.
-  std::optional<OutgoingFrame> next(MeshTime now, std::size_t room, ParcelClass priority);
+  std::optional<OutgoingFrame> next(std::size_t room, ParcelClass priority);
   std::optional<OutgoingFrame> again(const FragmentTicket& ticket) const;
   // What we believe arrived, but no receipt came: a fragment without bytes asks.
   std::optional<OutgoingFrame> next_question(MeshTime now, std::size_t room);
-  // When next() or next_question() has something without anything else happening; the distant past
-  // if it is next().
-  MeshTime next_due() const;
+  // When next_question() has something.
   MeshTime question_due() const;
   bool has_fragment(ParcelClass priority) const { return choose(priority).has_value(); }
 
@@ -58,7 +56,7 @@ class ParcelOutbox {
   // The finished parcel, once, if that is what the peer says.
   std::optional<ParcelKey> on_state(MeshTime now, const ParcelStateFrame& state);
   // The peer has dropped what it had of unfinished parcels.
-  void on_peer_restarted(MeshTime now);
+  void on_peer_restarted();
 
   std::size_t unfinished() const { return parcels_.size(); }
   std::size_t unfinished_bytes() const { return bytes_; }
@@ -80,21 +78,23 @@ class ParcelOutbox {
     Probe probe = Probe::kNone;
     MeshTime ask_at = kNever;
   };
+  // Numbers of the parcels that have a fragment to send.
+  struct Sendable {
+    std::set<std::uint32_t> begun;
+    std::set<std::uint32_t> untouched;
+  };
   using Parcels = std::map<std::uint32_t, Parcel>;
   void add(std::uint32_t number, ParcelClass priority, std::vector<std::uint8_t> bytes);
   Parcels::iterator find(const ParcelKey& key);
   std::optional<std::uint32_t> choose(ParcelClass priority) const;
   bool may_begin(const Parcel& parcel) const;
-  ParcelFrame frame_of(Parcels::const_iterator parcel) const;
+  OutgoingFrame fragment(Parcels::const_iterator parcel, NumberRange bytes) const;
   void begin(Parcel& parcel);
   void ask_at(Parcels::iterator parcel, MeshTime when);
   void ask_if_complete(Parcels::iterator parcel, MeshTime when);
   void note_sendable(Parcels::const_iterator parcel);
   void drop_from_acked(Parcel& parcel, const ParcelStateFrame& state);
   void finish(Parcels::iterator parcel);
-  std::set<std::uint32_t>& sendable(ParcelClass priority) {
-    return sendable_[static_cast<std::size_t>(priority)];
-  }
 
   ParcelConfig config_;
   ParcelBudget& budget_;
@@ -105,7 +105,7 @@ class ParcelOutbox {
   Parcels parcels_;                                         // unfinished, by number
   std::size_t bytes_ = 0;                                   // charged to the budget
   std::size_t begun_bytes_ = 0;                             // of those of which something was sent
-  std::array<std::set<std::uint32_t>, 2> sendable_;         // numbers that have a fragment to send
+  std::array<Sendable, 2> sendable_;                        // by class
   std::set<std::pair<MeshTime, std::uint32_t>> questions_;  // when to ask, about which number
   bool oldest_next_ = true;
 };

@@ -50,6 +50,9 @@ struct FilledPacket {
   std::vector<Ticket> tickets;
   std::size_t bytes = 0;                                // encoded
   std::array<std::size_t, kSendClasses> class_bytes{};  // by SendClass
+
+  void add(OutgoingFrame&& sent, SendClass send_class);
+  void add(Frame&& frame, SendClass send_class);  // without a ticket
 };
 
 // Chooses what goes into the next packet to one peer: urgent, control, telemetry as long as its

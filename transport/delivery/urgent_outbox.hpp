@@ -24,10 +24,10 @@ class UrgentOutbox {
 
   // Precondition: at most UrgentFrame::kBytesMax.
   void send(MeshTime now, std::span<const std::uint8_t> bytes);
-  // The longest due one that fits; `rtt` spaces the copies.
+  // The one that is due the longest, if it fits; `rtt` spaces the repetitions after the copies.
   std::optional<OutgoingFrame> next(MeshTime now, std::size_t room, Duration rtt);
   std::optional<OutgoingFrame> again(const UrgentTicket& ticket) const;
-  // When next() has something, or a message becomes stale.
+  // When next() has something.
   MeshTime next_due() const;
   void on_acked(const UrgentTicket& ticket);
   std::size_t unacknowledged() const { return messages_.size(); }
