@@ -3,7 +3,7 @@
 """A second implementation of the mesh's packets, from docs/PROTOCOL.md alone: makes the golden
 vectors and compares them with vectors.txt, and the page with both.
 
-Usage: check_vectors.py [--print]"""
+Usage: check_vectors.py [--print | --seeds tests/fuzz/corpus]"""
 import hashlib
 import pathlib
 import struct
@@ -183,8 +183,23 @@ def check_rfc_8439():
     assert sealed[-16:].hex() == "1ae10b594f09e26a7e902ecbd0600691", "ChaCha20-Poly1305 is wrong"
 
 
+def write_seeds(corpus):
+    for name, data in vectors().items():
+        if "key" in name:
+            continue
+        folder = corpus / ("fuzz_mesh_beacon" if name == "beacon" else "fuzz_mesh_packet")
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(data)
+    (corpus / "fuzz_mesh_beacon" / "lone").write_bytes(beacon(1, 0, 250, []))
+    heard = [(boot * 0x01010101, boot) for boot in range(8)]
+    (corpus / "fuzz_mesh_beacon" / "crowd").write_bytes(beacon(2**32 - 1, 86400, 65535, heard))
+
+
 def main():
     check_rfc_8439()
+    if "--seeds" in sys.argv:
+        write_seeds(pathlib.Path(sys.argv[2]))
+        return 0
     made = [f"{name} {data.hex()}" for name, data in vectors().items()]
     if "--print" in sys.argv:
         print("\n".join(made))
