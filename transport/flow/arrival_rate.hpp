@@ -12,36 +12,39 @@
 
 namespace warren {
 
-// The rate at which consecutive packets arrive beside the rate at which they were sent. Packets
-// lost between others count for neither, so the figure is right at any random loss, and a queue
-// that overflows does not inflate it.
+// The rate at which consecutive packets arrive, beside that at which they were sent. Packets lost
+// between others count for neither, so the figure is right at any random loss, and a queue that
+// overflows does not inflate it. Pauses of the sender do not lower it.
 class ArrivalRate {
  public:
   struct Measure {
-    double rate = 0.0;     // IP bytes/s that arrived between consecutive packets
+    double pairs = 0.0;    // between which the sender had no rest; all figures are of these
+    double rate = 0.0;     // IP bytes/s, while the interface worked for this peer
     double stretch = 1.0;  // arrival spacing / sending spacing: above 1 the link is too slow
-    double usage = 0.0;    // share of the sending time that the packets were meant to need
-    double packets = 0.0;  // how many pairs, about
-    Duration span{};
   };
 
-  void on_ack(MeshTime now, const AckFrame& ack, const AckReport& report);
-  // Over what arrived in the last span, or more if that was fewer than so many pairs.
-  std::optional<Measure> over(Duration span, double packets) const;
-  void restart();
-
- private:
+  // All that was acknowledged up to some time.
   struct Mark {
     MeshTime time;
     double arrived_bytes = 0.0;
     double arrived_us = 0.0;
-    double acked_packets = 0.0;
     AckReport::PairSums sent;
   };
+
+  void on_ack(MeshTime now, const AckFrame& ack, const AckReport& report);
+  Mark mark() const { return total_; }
+  // Of what was acknowledged since then: nothing if no two consecutive packets were.
+  std::optional<Measure> since(const Mark& from) const;
+  // Of what was acknowledged lately, or for longer if that was fewer than so many pairs.
+  std::optional<Measure> since(MeshTime time, double pairs) const;
+
+ private:
   static constexpr std::size_t kMarksMax = 256;
+  static constexpr Duration kMarkSpacing = std::chrono::milliseconds{4};
+
   std::deque<Mark> marks_;  // oldest first
-  std::optional<std::uint32_t> last_bytes_, last_us_;
-  Mark now_;
+  std::uint32_t last_bytes_ = 0, last_us_ = 0;
+  Mark total_;
 };
 
 }  // namespace warren

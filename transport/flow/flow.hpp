@@ -49,6 +49,10 @@ class Flow {
   // again without waiting.
   void on_heard(MeshTime now);
   Outcome on_time(MeshTime now);
+  // The peer restarted or is forgotten: all that is in flight is lost.
+  Outcome abandon();
+  // Another interface or address: rate, round trip and queue begin anew.
+  void on_path_changed(MeshTime now);
   // When on_time() has something to do, or an acknowledgement is due, or may_send() may turn true.
   MeshTime next_time() const;
 
@@ -72,9 +76,17 @@ class Flow {
   std::size_t memory_bytes() const;
 
  private:
+  MeshTime silence_time() const;
+
   ReceivedPackets received_;
   SentPackets sent_;
   RateController rate_;
+  std::uint64_t next_number_ = 0;
+  MeshTime last_sent_{};
+  MeshTime last_progress_{};  // an acknowledgement came, or the first packet went out
+  MeshTime last_probe_{};
+  bool silent_ = false;        // nothing is acknowledged: only single packets go out
+  double repeat_bytes_ = 0.0;  // still allowed
 };
 
 }  // namespace warren

@@ -12,7 +12,7 @@ namespace warren {
 
 // When the next packet may go out on an interface, and to which peer. A packet to a peer costs the
 // airtime bytes / pace of its link; all peers share the interface, and those that want to send get
-// equal airtime (deficit round robin).
+// equal airtime (the one that got least so far goes first).
 class NodePacer {
  public:
   using Peer = std::uint32_t;  // the owner's number for it
@@ -38,8 +38,11 @@ class NodePacer {
  private:
   struct Share {
     bool wants = false;
-    Duration deficit{};  // airtime it may still use in this round
+    Duration deficit{};  // airtime it got less than the others since it wants to send
   };
+  static constexpr Duration kDeficitMax = std::chrono::seconds{1};
+  void charge(Peer peer, Duration airtime);
+
   std::optional<double> ceiling_;
   std::map<Peer, Share> shares_;
   std::optional<Peer> turn_;

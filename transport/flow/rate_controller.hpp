@@ -15,7 +15,7 @@ namespace warren {
 
 // How fast to send to one peer. Loss is not congestion; delay that grows is. While a small queue
 // stands in the link, the spacing of arrivals is the link's rate; while none does, the rate is
-// raised as long as arrivals follow. See docs/adr on rate control.
+// raised as long as arrivals follow. Why so: docs/adr/0001-rate-control.md.
 class RateController {
  public:
   struct Config {
@@ -26,13 +26,15 @@ class RateController {
 
   explicit RateController(const Config& config);
 
-  void on_sent(MeshTime now, std::uint64_t number, std::size_t ip_bytes, bool backlogged);
-  void on_ack(MeshTime now, const AckFrame& ack, const AckReport& report);
-  // Nothing was acknowledged for long while packets were in flight.
-  void on_silence(MeshTime now);
-  void on_heard(MeshTime now);
+  // next: the number of the next packet to send. in_flight: IP bytes, after it.
+  void on_ack(MeshTime now, const AckFrame& ack, const AckReport& report, std::uint64_t next);
+  // After a silence the old rate is taken up with care.
+  void on_silence();
+  // The path is another: all is unknown again.
+  void forget_path(std::uint64_t next);
 
-  double pace() const;                   // IP bytes/s
+  double pace() const;  // IP bytes/s
+  bool known() const { return known_; }
   double rate() const { return rate_; }  // what the link carries, IP bytes/s
   std::size_t in_flight_max() const;     // IP bytes
   MeshTime paused_until() const { return paused_until_; }
@@ -40,24 +42,36 @@ class RateController {
   Duration queue() const { return queue_.standing(); }
 
  private:
-  enum class Mode : std::uint8_t { kStart, kSteady };
-  // A stretch of packets sent at one pace, judged when one sent after its start was acknowledged.
+  // A stretch of packets sent at one gain; judged when enough that were sent in it arrived.
   struct Round {
     std::uint64_t first = 0;
-    bool backlogged = true;  // never short of something to send
-    bool queued = false;     // a queue showed
+    std::optional<ArrivalRate::Mark> from;  // its first packet arrived
+    bool queued = false;                    // a queue showed
   };
+
+  void judge_first_flight(std::uint64_t next);
+  void begin_round(std::uint64_t next);
+  void end_round(const ArrivalRate::Measure& seen);
+  void watch_round(MeshTime now, const AckReport& report, std::uint64_t next);
+  void follow_arrivals(MeshTime now);
+  void fall_fast(MeshTime now, std::uint64_t next);
+  void empty_queue_sometimes(MeshTime now);
+  void set_rate(double rate);
+  Duration target() const;
+  Duration round_trip() const;
 
   Config config_;
   ArrivalRate arrivals_;
   QueueDelay queue_;
-  Mode mode_ = Mode::kStart;
   Round round_;
   double rate_;
-  double gain_;
+  bool known_ = false;  // rate_ was measured
+  bool starting_ = true;
+  double gain_;       // above 1: looks for more
+  int patience_ = 0;  // rounds until it looks for more again
+  MeshTime last_ack_{};
   MeshTime paused_until_{};
-  std::uint64_t next_number_ = 0;
-  bool silent_ = false;
+  MeshTime last_pause_{};
 };
 
 }  // namespace warren

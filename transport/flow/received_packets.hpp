@@ -52,7 +52,11 @@ class ReceivedPackets {
   void schedule(MeshTime now, bool wants_ack);
   const Arrival* arrival(std::uint64_t number) const;
 
-  std::vector<NumberRange> ranges_;            // highest first, at most AckFrame::kRangesMax
+  struct Range : NumberRange {
+    int told = 0;  // in so many acknowledgements since it changed
+  };
+  std::vector<Range> ranges_;  // highest first, at most AckFrame::kRangesMax
+  std::uint32_t acks_ = 0;
   std::array<Arrival, kArrivals> arrivals_{};  // by number modulo kArrivals
   std::uint32_t pair_bytes_ = 0;
   std::uint32_t pair_us_ = 0;

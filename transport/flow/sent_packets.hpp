@@ -23,18 +23,21 @@ struct AckReport {
     std::size_t ip_bytes = 0;
     std::optional<Duration> rtt;  // none if the receiver held the acknowledgement for long
   };
-  // Over all pairs of consecutive numbers that both arrived, as the AckFrame's sums: the bytes of
-  // the second, the time from one sending to the next, and how much of it the link was meant to
-  // need (bytes / pace).
+  // Over all pairs of consecutive numbers that both arrived, as the AckFrame's sums.
   struct PairSums {
-    double ip_bytes = 0.0;
-    Duration spacing{};
-    Duration airtime{};
+    double ip_bytes = 0.0;  // of the second
+    Duration spacing{};     // from one sending to the next
+    // Of that, the pairs between which the sender had no rest.
+    double busy_pairs = 0.0;
+    double busy_bytes = 0.0;
+    Duration busy{};
+    Duration own{};  // without what went to other peers between
   };
   std::optional<Largest> largest;
   PairSums pairs;
   std::size_t newly_acked = 0;  // packets, late ones included
   std::size_t newly_lost = 0;
+  std::uint64_t end = 0;  // one more than the largest number acknowledged so far
 };
 
 // What was sent to one peer and what became of it. Numbers rise by one with each packet. Loss is
@@ -47,7 +50,8 @@ class SentPackets {
   struct Packet {
     MeshTime sent;
     std::size_t ip_bytes = 0;
-    Duration airtime{};  // bytes / pace when it was sent
+    Duration own{};     // time since the packet before, without what went to other peers
+    bool busy = false;  // the sender had no rest since the packet before
     bool wants_ack = false;
     std::vector<Ticket> tickets;
   };
@@ -60,6 +64,10 @@ class SentPackets {
   // Precondition: number is one more than the last (any at first); room().
   void on_sent(std::uint64_t number, Packet packet);
   Settled on_ack(MeshTime now, const AckFrame& ack);
+  // All that is in flight is lost: the peer is no more.
+  std::vector<Ticket> abandon();
+  // The path is another: round trip and loss begin anew.
+  void forget_path();
   // Packets lost by time.
   Settled on_time(MeshTime now);
   // When on_time() may find one.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/flow/arrival_rate.hpp"
+
+#include <algorithm>
+
+namespace warren {
+namespace {
+
+constexpr double kStretchMin = 0.2;  // jitter may turn the order about
+
+double us(Duration duration) { return static_cast<double>(duration.count()); }
+
+}  // namespace
+
+void ArrivalRate::on_ack(MeshTime now, const AckFrame& ack, const AckReport& report) {
+  total_.arrived_bytes += ack.pair_bytes - last_bytes_;
+  total_.arrived_us += static_cast<std::int32_t>(ack.pair_us - last_us_);
+  last_bytes_ = ack.pair_bytes;
+  last_us_ = ack.pair_us;
+  total_.sent = report.pairs;
+  total_.time = now;
+  if (!marks_.empty() && now - marks_.back().time < kMarkSpacing) return;
+  marks_.push_back(total_);
+  if (marks_.size() > kMarksMax) marks_.pop_front();
+}
+
+std::optional<ArrivalRate::Measure> ArrivalRate::since(MeshTime time, double pairs) const {
+  // The youngest mark that is old enough and has enough after it.
+  for (auto mark = marks_.rbegin(); mark != marks_.rend(); ++mark) {
+    if (mark->time > time || total_.sent.busy_pairs - mark->sent.busy_pairs < pairs) continue;
+    return since(*mark);
+  }
+  return {};
+}
+
+std::optional<ArrivalRate::Measure> ArrivalRate::since(const Mark& from) const {
+  const double pairs = total_.sent.busy_pairs - from.sent.busy_pairs;
+  const double sent_bytes = total_.sent.ip_bytes - from.sent.ip_bytes;
+  const double arrived_bytes = total_.arrived_bytes - from.arrived_bytes;
+  const double busy = us(total_.sent.busy - from.sent.busy);
+  const double own = us(total_.sent.own - from.sent.own);
+  if (pairs < 1.0 || busy <= 0.0 || own <= 0.0 || arrived_bytes <= 0.0) return {};
+  // Both sides rarely count quite the same pairs: what is in flight differs.
+  const double arrived_us = (total_.arrived_us - from.arrived_us) * sent_bytes / arrived_bytes;
+  const double queued_us = arrived_us - us(total_.sent.spacing - from.sent.spacing);
+  Measure measure;
+  measure.pairs = pairs;
+  measure.stretch = std::max((busy + queued_us) / busy, kStretchMin);
+  const double busy_bytes = total_.sent.busy_bytes - from.sent.busy_bytes;
+  measure.rate = busy_bytes * 1e6 / (own * measure.stretch);
+  return measure;
+}
+
+}  // namespace warren

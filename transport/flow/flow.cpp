@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/flow/flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace warren {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Duration kSilence = milliseconds{600};      // without progress, beyond round trips
+constexpr Duration kProbePeriod = milliseconds{200};  // one packet, while silent
+constexpr double kRepeatShare = 0.04;                 // of the bytes sent for the first time
+constexpr double kRepeatBytesMax = 6'000.0;
+
+}  // namespace
+
+Flow::Flow(const RateController::Config& config) : rate_(config) {}
+
+void Flow::on_sent(MeshTime now, Sent sent) {
+  if (sent.wants_ack && sent_.packets_in_flight() == 0) last_progress_ = now;
+  if (sent.wants_ack) last_probe_ = now;
+  const double bytes = static_cast<double>(sent.ip_bytes);
+  if (sent.repeat) {
+    repeat_bytes_ -= bytes;
+  } else {
+    repeat_bytes_ = std::min(repeat_bytes_ + kRepeatShare * bytes, kRepeatBytesMax);
+  }
+  // Full in flight is no want of something to send either.
+  const bool full = sent_.bytes_in_flight() + 2 * sent.ip_bytes > rate_.in_flight_max();
+  const Duration airtime{std::llround(bytes * 1e6 / rate_.pace())};
+  const Duration spacing = now - last_sent_;
+  last_sent_ = now;
+  sent_.on_sent(sent.number, {.sent = now,
+                              .ip_bytes = sent.ip_bytes,
+                              .own = sent.backlogged ? std::min(airtime, spacing) : spacing,
+                              .busy = sent.backlogged || full,
+                              .wants_ack = sent.wants_ack,
+                              .tickets = std::move(sent.tickets)});
+  next_number_ = sent.number + 1;
+}
+
+void Flow::on_received(MeshTime now, const ReceivedPackets::Packet& packet) {
+  received_.on_received(now, packet);
+}
+
+Flow::Outcome Flow::on_ack(MeshTime now, const AckFrame& ack) {
+  SentPackets::Settled settled = sent_.on_ack(now, ack);
+  if (settled.report.newly_acked > 0) {
+    last_progress_ = now;
+    silent_ = false;
+    rate_.on_ack(now, ack, settled.report, next_number_);
+  }
+  return {std::move(settled.acked), std::move(settled.lost)};
+}
+
+void Flow::on_heard(MeshTime now) {
+  if (silent_) last_probe_ = now - kProbePeriod;
+}
+
+Flow::Outcome Flow::on_time(MeshTime now) {
+  SentPackets::Settled settled = sent_.on_time(now);
+  if (!silent_ && now >= silence_time()) {
+    silent_ = true;
+    rate_.on_silence();
+  }
+  return {std::move(settled.acked), std::move(settled.lost)};
+}
+
+Flow::Outcome Flow::abandon() {
+  Outcome outcome;
+  outcome.lost = sent_.abandon();
+  return outcome;
+}
+
+void Flow::on_path_changed(MeshTime now) {
+  rate_.forget_path(next_number_);
+  sent_.forget_path();
+  silent_ = false;
+  last_progress_ = now;
+}
+
+MeshTime Flow::silence_time() const {
+  if (silent_ || last_progress_ == kNever) return kNever;
+  const Duration trip = sent_.smoothed_rtt().value_or(milliseconds{400});
+  const bool waiting = sent_.packets_in_flight() > 0 || last_sent_ > last_progress_;
+  return waiting ? last_progress_ + kSilence + 2 * trip : kNever;
+}
+
+MeshTime Flow::next_time() const {
+  MeshTime next = std::min({sent_.loss_time(), received_.due_at(), silence_time()});
+  const MeshTime may_send_at = silent_ ? last_probe_ + kProbePeriod : rate_.paused_until();
+  if (may_send_at > last_sent_) next = std::min(next, may_send_at);
+  return next;
+}
+
+bool Flow::may_send(MeshTime now) const {
+  if (!sent_.room()) return false;
+  if (silent_) return now >= last_probe_ + kProbePeriod;
+  if (now < rate_.paused_until()) return false;
+  return sent_.bytes_in_flight() + packet_bytes() <= rate_.in_flight_max();
+}
+
+LinkQuality Flow::quality(MeshTime) const {
+  LinkQuality quality;
+  quality.rtt = sent_.smoothed_rtt();
+  quality.loss_out = sent_.loss();
+  quality.loss_in = received_.loss();
+  quality.rate_bit_s = rate_.known() ? rate_.rate() * 8.0 : 0.0;
+  quality.queue = rate_.queue();
+  return quality;
+}
+
+std::optional<std::vector<Ticket>> Flow::take_repeat(MeshTime now) {
+  if (silent_ || repeat_bytes_ < static_cast<double>(packet_bytes())) return {};
+  const Duration trip = sent_.smoothed_rtt().value_or(milliseconds{400});
+  return sent_.take_repeat(now - trip / 4);
+}
+
+std::size_t Flow::memory_bytes() const { return sizeof(*this) + sent_.memory_bytes(); }
+
+}  // namespace warren

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/flow/rate_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warren {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr double kFirstRate = 500'000.0;  // IP bytes/s, of the first packets
+constexpr double kRateMin = 1'000.0;
+constexpr double kRateMax = 1e9;
+constexpr std::size_t kFirstPackets = 4;  // in flight until something is known
+constexpr std::size_t kFirstPacketBytes = 600;
+constexpr Duration kPacketAirtime = milliseconds{75};
+
+constexpr Duration kTargetFloor = milliseconds{8};
+constexpr Duration kTargetSlope = milliseconds{14};  // at 1 Mbit/s; falls with the root of the rate
+constexpr Duration kTargetMax = milliseconds{80};
+constexpr double kTargetRate = 125'000.0;
+constexpr Duration kInFlightQueue = milliseconds{150};
+constexpr std::size_t kInFlightPackets = 3;
+
+constexpr double kFirstCaution = 0.8;
+constexpr double kGainSecond = 1.25;  // after a first flight that the link stretched
+constexpr double kGainFirst = 1.06;
+constexpr double kGainMax = 2.0;
+constexpr double kRaiseMax = 0.06;  // of the pace, while the queue is below its target
+constexpr double kLowerMax = 0.5;
+constexpr int kPlateauRounds = 6;
+constexpr double kRoundPairs = 6.0;
+constexpr Duration kFollowSpan = milliseconds{200};
+constexpr Duration kEmptyPeriod = seconds{8};
+
+double s(Duration duration) { return static_cast<double>(duration.count()) * 1e-6; }
+Duration from_s(double value) { return Duration{std::llround(value * 1e6)}; }
+
+}  // namespace
+
+RateController::RateController(const Config& config)
+    : config_(config), rate_(kFirstRate), gain_(1.0) {
+  round_.from.emplace();
+}
+
+void RateController::on_ack(MeshTime now, const AckFrame& ack, const AckReport& report,
+                            std::uint64_t next) {
+  arrivals_.on_ack(now, ack, report);
+  if (report.largest) queue_.on_sample(now, *report.largest, known_ ? rate_ : 0.0);
+  last_ack_ = now;
+  if (!known_) return judge_first_flight(next);
+  fall_fast(now, next);
+  follow_arrivals(now);
+  watch_round(now, report, next);
+  empty_queue_sometimes(now);
+}
+
+// A queue well above the target: the link became slower, or the search for more went too far.
+void RateController::fall_fast(MeshTime now, std::uint64_t next) {
+  const bool searching = gain_ > 1.0 || starting_;
+  const Duration limit = searching ? 2 * target() : target() + milliseconds{40};
+  if (queue_.standing() < limit + queue_.jitter()) return;
+  const auto seen = arrivals_.since(now - milliseconds{30}, 4.0);
+  if (!seen) return;
+  if (searching || seen->rate < 0.85 * rate_) {
+    set_rate(searching ? std::min(seen->rate, rate_ * gain_) : seen->rate);
+  }
+  if (searching) {
+    gain_ = 1.0;
+    starting_ = false;
+    begin_round(next);
+  }
+}
+
+// While a queue stands, what arrives is what the link carries.
+void RateController::follow_arrivals(MeshTime now) {
+  if (starting_ || gain_ > 1.0) return;
+  if (queue_.standing() < target() / 4) return;
+  const auto seen = arrivals_.since(now - std::max(round_trip(), kFollowSpan), 12.0);
+  if (!seen) return;
+  const double share = std::clamp(s(now - last_ack_) / 0.1, 0.0, 1.0);
+  set_rate(rate_ + (seen->rate - rate_) * share);
+}
+
+// The first packets go out close together. If they arrive further apart, that is the link's rate;
+// else the link is faster yet.
+void RateController::judge_first_flight(std::uint64_t next) {
+  const auto seen = arrivals_.since(*round_.from);
+  if (!seen || seen->pairs < 2.0) return;
+  const bool limited = seen->stretch > 1.2;
+  set_rate(limited ? seen->rate * kFirstCaution : pace());
+  gain_ = limited ? kGainSecond : kGainMax;
+  begin_round(next);
+}
+
+void RateController::begin_round(std::uint64_t next) {
+  round_ = {};
+  round_.first = next;
+}
+
+void RateController::watch_round(MeshTime now, const AckReport& report, std::uint64_t next) {
+  if (queue_.standing() >= target() / 4) round_.queued = true;
+  if (!round_.from) {
+    if (report.end > round_.first) round_.from = arrivals_.mark();
+    return;
+  }
+  const Duration span =
+      std::max({round_trip() / 4, 4 * queue_.jitter(), Duration{milliseconds{10}}});
+  if (now - round_.from->time < span) return;
+  const auto seen = arrivals_.since(*round_.from);
+  if (!seen || seen->pairs < kRoundPairs) return;
+  end_round(*seen);
+  begin_round(next);
+}
+
+void RateController::end_round(const ArrivalRate::Measure& seen) {
+  if (round_.queued && !starting_) {
+    gain_ = 1.0;
+    patience_ = 0;
+    return;
+  }
+  if (patience_ > 0) {
+    if (--patience_ == 0) gain_ = kGainFirst;
+    return;
+  }
+  const double passed = 1.0 / seen.stretch;  // of the pace
+  const double needed = 1.0 - std::max(0.03, 0.4 * (gain_ - 1.0) / gain_);
+  if (passed >= needed) {
+    set_rate(std::max(rate_, rate_ * gain_ * std::min(passed, 1.0)));
+    gain_ = std::min(kGainMax, std::max(kGainFirst, 1.0 + 2.0 * (gain_ - 1.0)));
+  } else {
+    set_rate(std::min(seen.rate, rate_ * gain_));
+    gain_ = 1.0;
+    starting_ = false;
+    patience_ = kPlateauRounds;
+  }
+}
+
+// The base of the delay is only seen while the queue is empty; and a neighbour's flow that never
+// saw it empty takes ours for a part of its base.
+void RateController::empty_queue_sometimes(MeshTime now) {
+  if (starting_ || queue_.standing() < target() / 4) return;
+  if (now - std::max(queue_.last_empty(), last_pause_) < kEmptyPeriod) return;
+  last_pause_ = now;
+  paused_until_ = now + queue_.standing() + target() / 2;
+}
+
+void RateController::on_silence() {
+  gain_ = std::max(gain_, kGainFirst);
+  patience_ = 0;
+}
+
+void RateController::forget_path(std::uint64_t next) {
+  const ArrivalRate arrivals = arrivals_;
+  *this = RateController(config_);
+  arrivals_ = arrivals;
+  round_ = {.first = next, .from = arrivals_.mark()};
+}
+
+void RateController::set_rate(double rate) {
+  rate_ = std::clamp(rate, kRateMin, kRateMax);
+  known_ = true;
+}
+
+Duration RateController::round_trip() const {
+  return queue_.least_rtt().value_or(milliseconds{100});
+}
+
+// Less for fast flows: two that share a queue find the same rate.
+Duration RateController::target() const {
+  const double slope = s(kTargetSlope) * std::sqrt(kTargetRate / rate_);
+  return std::min(kTargetFloor + from_s(slope), Duration{kTargetMax});
+}
+
+double RateController::pace() const {
+  double pace = rate_ * gain_;
+  if (!starting_ && gain_ <= 1.0) {
+    const double reaction = std::max(0.3, 2.5 * s(round_trip()));
+    const double room = s(target() - queue_.standing()) / reaction;
+    pace = rate_ * (1.0 + std::clamp(room, -kLowerMax, kRaiseMax));
+  }
+  if (config_.ceiling_bit_s) pace = std::min(pace, *config_.ceiling_bit_s / 8.0);
+  return std::max(pace, kRateMin);
+}
+
+std::size_t RateController::in_flight_max() const {
+  const auto packets = kInFlightPackets * packet_bytes();
+  if (!known_) return kFirstPackets * packet_bytes();
+  const double trip = s(round_trip() + kInFlightQueue);
+  return packets + static_cast<std::size_t>(std::max(pace(), rate_) * trip);
+}
+
+std::size_t RateController::packet_bytes() const {
+  if (!known_) return std::min(kFirstPacketBytes, config_.packet_bytes_max);
+  const auto bytes = static_cast<std::size_t>(rate_ * s(kPacketAirtime));
+  return std::clamp(bytes, std::min(config_.packet_bytes_min, config_.packet_bytes_max),
+                    config_.packet_bytes_max);
+}
+
+}  // namespace warren

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/flow/sent_packets.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace warren {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::uint64_t kPacketThreshold = 3;  // RFC 9002, 6.1.1
+constexpr Duration kReorderingMax = milliseconds{300};
+constexpr Duration kSilenceMin = milliseconds{80};  // delayed and lost acknowledgements
+constexpr Duration kSilenceMax = seconds{1};
+constexpr Duration kFirstRtt = milliseconds{700};  // before one was measured
+constexpr Duration kDecayPeriod = seconds{1};
+constexpr Duration kRememberLost = seconds{4};        // to notice that it was only late
+constexpr Duration kHeldTooLong = milliseconds{500};  // such a delay is no good for a round trip
+constexpr double kLossGain = 1.0 / 64.0;
+
+void move_all(std::vector<Ticket>& from, std::vector<Ticket>& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+  from.clear();
+}
+
+}  // namespace
+
+void SentPackets::on_sent(std::uint64_t number, Packet packet) {
+  if (packets_.empty()) first_ = undecided_ = number;
+  assert(number == end() && room());
+  if (packet.wants_ack) {
+    bytes_in_flight_ += packet.ip_bytes;
+    ++packets_in_flight_;
+  }
+  packets_.push_back({.packet = std::move(packet)});
+}
+
+SentPackets::Record* SentPackets::find(std::uint64_t number) {
+  return number >= first_ && number < end() ? &packets_[number - first_] : nullptr;
+}
+
+SentPackets::Settled SentPackets::on_ack(MeshTime now, const AckFrame& ack) {
+  Settled settled;
+  if (ack.ranges.empty() || ack.ranges.front().end > end()) return settled;
+  const std::uint64_t largest = ack.ranges.front().end - 1;
+  if (!largest_acked_ || largest > *largest_acked_) {
+    largest_acked_ = largest;
+    if (const Record* record = find(largest)) {
+      AckReport::Largest news{record->packet.sent, ack.arrived_us, record->packet.ip_bytes, {}};
+      if (ack.delay < kHeldTooLong) {
+        news.rtt = std::max(now - record->packet.sent - ack.delay, Duration{1});
+        measure_rtt(*news.rtt);
+      }
+      settled.report.largest = news;
+    }
+  }
+  for (auto range = ack.ranges.rbegin(); range != ack.ranges.rend(); ++range) {
+    const std::uint64_t from = std::max(range->first, first_);
+    for (std::uint64_t number = from; number < range->end; ++number) {
+      acknowledge(now, number, settled);
+    }
+  }
+  lose_overtaken(settled);
+  forget_settled(now);
+  settled.report.pairs = pairs_;
+  settled.report.end = *largest_acked_ + 1;
+  return settled;
+}
+
+void SentPackets::acknowledge(MeshTime now, std::uint64_t number, Settled& settled) {
+  Record& record = *find(number);
+  if (record.fate == Fate::kAcked) return;
+  if (record.fate == Fate::kLost) {
+    // Only late: be more patient with whichever rule was wrong.
+    const Duration late = now - record.packet.sent - smoothed_rtt_.value_or(Duration{0});
+    if (number < *largest_acked_) {
+      reordering_ = std::clamp(late, reordering_, kReorderingMax);
+    }
+    ack_silence_ = std::clamp(late * 5 / 4, ack_silence_, kSilenceMax);
+  } else if (record.packet.wants_ack) {
+    bytes_in_flight_ -= record.packet.ip_bytes;
+    --packets_in_flight_;
+  }
+  if (record.packet.wants_ack) measure_loss(false);
+  record.fate = Fate::kAcked;
+  ++settled.report.newly_acked;
+  move_all(record.packet.tickets, settled.acked);
+  add_pairs(number);
+}
+
+void SentPackets::add_pairs(std::uint64_t number) {
+  const auto add = [this](const Record* first, const Record* second) {
+    if (first == nullptr || second == nullptr) return;
+    if (first->fate != Fate::kAcked || second->fate != Fate::kAcked) return;
+    pairs_.ip_bytes += static_cast<double>(second->packet.ip_bytes);
+    pairs_.spacing += second->packet.sent - first->packet.sent;
+    if (!second->packet.busy) return;
+    pairs_.busy_pairs += 1.0;
+    pairs_.busy_bytes += static_cast<double>(second->packet.ip_bytes);
+    pairs_.busy += second->packet.sent - first->packet.sent;
+    pairs_.own += second->packet.own;
+  };
+  const Record* record = find(number);
+  if (number > first_) add(find(number - 1), record);
+  add(record, find(number + 1));
+}
+
+void SentPackets::lose(Record& record, Settled& settled) {
+  record.fate = Fate::kLost;
+  if (!record.packet.wants_ack) return;
+  bytes_in_flight_ -= record.packet.ip_bytes;
+  --packets_in_flight_;
+  ++settled.report.newly_lost;
+  measure_loss(true);
+  move_all(record.packet.tickets, settled.lost);
+}
+
+void SentPackets::lose_overtaken(Settled& settled) {
+  if (!largest_acked_ || *largest_acked_ < first_) return;
+  const MeshTime latest = find(*largest_acked_)->packet.sent;
+  for (; undecided_ < *largest_acked_; ++undecided_) {
+    Record* record = find(undecided_);
+    if (record == nullptr || record->fate != Fate::kInFlight) continue;
+    const bool overtaken = *largest_acked_ - undecided_ >= kPacketThreshold &&
+                           latest - record->packet.sent >= reordering_;
+    if (!overtaken) return;
+    lose(*record, settled);
+  }
+}
+
+// From sending until a packet is held lost though nothing sent later arrived.
+Duration SentPackets::patience() const {
+  if (!smoothed_rtt_) return kFirstRtt;
+  return *smoothed_rtt_ + 4 * rtt_variation_ + std::max(ack_silence_, kSilenceMin);
+}
+
+MeshTime SentPackets::loss_time() const {
+  for (std::uint64_t number = std::max(undecided_, first_); number < end(); ++number) {
+    const Record& record = packets_[number - first_];
+    if (record.fate == Fate::kInFlight && record.packet.wants_ack) {
+      return record.packet.sent + patience();
+    }
+  }
+  return kNever;
+}
+
+SentPackets::Settled SentPackets::on_time(MeshTime now) {
+  Settled settled;
+  for (; undecided_ < end(); ++undecided_) {
+    Record* record = find(undecided_);
+    if (record == nullptr || record->fate != Fate::kInFlight) continue;
+    if (record->packet.sent + patience() > now) break;
+    lose(*record, settled);
+  }
+  forget_settled(now);
+  settled.report.pairs = pairs_;
+  return settled;
+}
+
+std::vector<Ticket> SentPackets::abandon() {
+  Settled settled;
+  for (; undecided_ < end(); ++undecided_) {
+    Record* record = find(undecided_);
+    if (record != nullptr && record->fate == Fate::kInFlight) lose(*record, settled);
+  }
+  return std::move(settled.lost);
+}
+
+void SentPackets::forget_path() {
+  smoothed_rtt_.reset();
+  reordering_ = ack_silence_ = Duration{0};
+  loss_ = 0.0;
+}
+
+void SentPackets::measure_rtt(Duration rtt) {  // RFC 9002, 5.3
+  if (!smoothed_rtt_) {
+    smoothed_rtt_ = rtt;
+    rtt_variation_ = rtt / 2;
+    return;
+  }
+  const Duration difference = *smoothed_rtt_ > rtt ? *smoothed_rtt_ - rtt : rtt - *smoothed_rtt_;
+  rtt_variation_ = (3 * rtt_variation_ + difference) / 4;
+  *smoothed_rtt_ = (7 * *smoothed_rtt_ + rtt) / 8;
+}
+
+void SentPackets::measure_loss(bool lost) { loss_ += ((lost ? 1.0 : 0.0) - loss_) * kLossGain; }
+
+void SentPackets::forget_settled(MeshTime now) {
+  if (now - last_decay_ > kDecayPeriod) {
+    reordering_ = reordering_ * 7 / 8;
+    ack_silence_ = ack_silence_ * 15 / 16;
+    last_decay_ = now;
+  }
+  // One acknowledged record stays, as the first of a pair.
+  while (packets_.size() > 1) {
+    const Record& record = packets_.front();
+    if (record.fate == Fate::kInFlight) return;
+    const bool may_come_late = record.fate == Fate::kLost &&
+                               record.packet.sent + kRememberLost > now &&
+                               packets_.size() < kPacketsMax / 2;
+    const bool starts_a_pair = record.fate == Fate::kAcked && packets_[1].fate != Fate::kAcked &&
+                               record.packet.sent + kRememberLost > now &&
+                               packets_.size() < kPacketsMax / 2;
+    if (may_come_late || starts_a_pair) return;
+    packets_.pop_front();
+    ++first_;
+  }
+}
+
+std::optional<std::vector<Ticket>> SentPackets::take_repeat(MeshTime sent_before) {
+  for (std::uint64_t number = std::max(undecided_, first_); number < end(); ++number) {
+    Record& record = packets_[number - first_];
+    if (record.packet.sent >= sent_before) return {};
+    if (record.fate != Fate::kInFlight || record.repeated || record.packet.tickets.empty()) {
+      continue;
+    }
+    record.repeated = true;
+    return record.packet.tickets;
+  }
+  return {};
+}
+
+std::size_t SentPackets::memory_bytes() const {
+  std::size_t bytes = packets_.size() * sizeof(Record);
+  for (const Record& record : packets_) bytes += record.packet.tickets.capacity() * sizeof(Ticket);
+  return bytes;
+}
+
+}  // namespace warren
