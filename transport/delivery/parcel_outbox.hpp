@@ -26,8 +26,9 @@ namespace warren {
 enum class ParcelRefusal : std::uint8_t { kTooLarge, kFull };
 
 // Parcels on their way to one peer, in one stream. A parcel is finished when its receiver says that
-// it was handed over; until then it is kept. After a restart from save() numbers go on with a gap:
-// none is used twice, even if up to kNumbersPerSave parcels were sent after the last save.
+// it was handed over; until then it is kept. A restored stream goes on with a gap in its
+// numbers: none is used twice by a life that crashed with up to kNumbersPerSave parcels unsaved, if
+// each life saves once after it has restored and before it sends.
 class ParcelOutbox {
  public:
   static constexpr std::uint32_t kNumbersPerSave = 4096;
