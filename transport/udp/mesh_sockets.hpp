@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include <asio/io_context.hpp>
 
@@ -37,6 +38,8 @@ class MeshSockets {
   void send(const MeshPath& to, std::span<const std::uint8_t> bytes);
 
   bool is_open(InterfaceIndex interface) const;
+  // Why an interface is not open, for people; empty if it is.
+  const std::string& problem(InterfaceIndex interface) const;
   std::uint16_t port() const;  // 0: none is open yet
   const SocketCounts& counts(InterfaceIndex interface) const;
 

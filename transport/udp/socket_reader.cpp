@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/udp/socket_reader.hpp"
+
+#include <utility>
+
+namespace warren {
+
+SocketReader::SocketReader(asio::io_context& io, UdpSocket socket, OnReadable on_readable)
+    : socket_(std::move(socket)),
+      waiter_(io, socket_.descriptor()),
+      on_readable_(std::move(on_readable)) {}
+
+SocketReader::~SocketReader() { stop(); }
+
+void SocketReader::start() {
+  waiter_.async_wait(asio::posix::stream_descriptor::wait_read,
+                     [self = shared_from_this()](const asio::error_code& error) {
+                       if (error || self->stopped_) return;
+                       self->on_readable_(*self);
+                       if (!self->stopped_) self->start();
+                     });
+}
+
+void SocketReader::stop() {
+  if (std::exchange(stopped_, true)) return;
+  // The descriptor belongs to the socket.
+  waiter_.release();
+}
+
+}  // namespace warren
