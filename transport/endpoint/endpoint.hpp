@@ -11,6 +11,8 @@
 
 #include <tl/expected.hpp>
 
+#include "transport/endpoint/endpoint_counts.hpp"
+#include "transport/flow/link_quality.hpp"
 #include "transport/mesh_address.hpp"
 #include "transport/mesh_id.hpp"
 #include "transport/mesh_time.hpp"
@@ -20,47 +22,55 @@
 namespace warren {
 
 struct InterfaceConfig {
-  std::size_t mtu_bytes = 1428;          // of an IP packet, headers included
-  std::size_t ip_header_bytes = 28;      // IP and UDP: 28, or 48 with IPv6
-  std::optional<double> ceiling_bit_s;   // of all that this node sends there, IP bytes
-  bool group_broadcast = false;          // ask MapSource for packets that all can hear
-  std::vector<MeshAddress> seeds;        // beacons go there too, besides the group
+  std::size_t mtu_bytes = 1428;         // of an IP packet, headers included
+  std::size_t ip_header_bytes = 28;     // IP and UDP: 28, or 48 with IPv6
+  std::optional<double> ceiling_bit_s;  // of all that this node sends there, IP bytes
+  bool group_broadcast = false;         // ask MapSource for packets that all can hear
+  std::vector<MeshAddress> seeds;       // beacons go there too, besides the group
 };
 
 struct EndpointConfig {
   MemberId self;
-  BootId boot;                 // 64 fresh random bits
+  BootId boot;  // 64 fresh random bits
   std::uint64_t random_seed = 0;
   std::vector<InterfaceConfig> interfaces;
   std::size_t members_max = 256;
   std::size_t parcels_bytes_max = 64'000'000;  // of all unfinished ones, sent and received
 };
 
-struct LinkQuality {
-  std::optional<Duration> rtt;      // none: not measured yet
-  double loss_out = 0.0;            // share of our packets that did not arrive, lately
-  double loss_in = 0.0;             // of theirs
-  double rate_bit_s = 0.0;          // what the link carries, in IP bytes; 0: not known yet
-  Duration queue{};                 // delay that our packets find waiting in the link's queue
-};
-
 struct Member {
   MemberId id;
   BootId boot;
-  MeshPath path;             // where packets go now
-  MeshTime since;            // first heard in this boot
+  MeshPath path;   // where packets go now
+  MeshTime since;  // first heard in this boot
   MeshTime last_heard;
-  bool up = false;           // heard lately, and hears us
+  bool up = false;  // heard lately, and hears us
   LinkQuality link;
 };
 
 // Events, oldest first.
-struct MemberUp { MemberId member; };
-struct MemberDown { MemberId member; };       // silent; its session lives on
-struct MemberRestarted { MemberId member; };
-struct MemberMoved { MemberId member; MeshPath path; };
-struct UrgentArrived { MemberId from; std::vector<std::uint8_t> bytes; };
-struct TelemetryArrived { MemberId from; std::uint16_t key; std::vector<std::uint8_t> bytes; };
+struct MemberUp {
+  MemberId member;
+};
+struct MemberDown {
+  MemberId member;
+};  // silent; its session lives on
+struct MemberRestarted {
+  MemberId member;
+};
+struct MemberMoved {
+  MemberId member;
+  MeshPath path;
+};
+struct UrgentArrived {
+  MemberId from;
+  std::vector<std::uint8_t> bytes;
+};
+struct TelemetryArrived {
+  MemberId from;
+  std::uint16_t key;
+  std::vector<std::uint8_t> bytes;
+};
 // Once per parcel. It counts as handed over when finish_parcel() is called: until then a restart
 // delivers it again.
 struct ParcelArrived {
@@ -69,13 +79,20 @@ struct ParcelArrived {
   ParcelClass priority;
   std::vector<std::uint8_t> bytes;
 };
-struct ParcelDelivered { MemberId to; ParcelKey key; };  // handed over at the other side
-struct MapArrived { MemberId from; MapClass priority; std::vector<std::uint8_t> bytes; };
+struct ParcelDelivered {
+  MemberId to;
+  ParcelKey key;
+};  // handed over at the other side
+struct MapArrived {
+  MemberId from;
+  MapClass priority;
+  std::vector<std::uint8_t> bytes;
+};
 using MeshEvent = std::variant<MemberUp, MemberDown, MemberRestarted, MemberMoved, UrgentArrived,
                                TelemetryArrived, ParcelArrived, ParcelDelivered, MapArrived>;
 
 // The layer above, asked for map packets when there is room to send one. It is told of each what
-// became of it, in any order.
+// became of it, in any order; one told lost may be told acknowledged later: it was only late.
 class MapSource {
  public:
   struct Packet {
@@ -84,9 +101,8 @@ class MapSource {
     std::vector<std::uint8_t> bytes;  // at most the limit asked for
   };
   virtual ~MapSource() = default;
-  // Nothing: nothing to send there until Endpoint::wake(). `allowed` is the lowest priority that
-  // may go now.
-  virtual std::optional<Packet> next_for(MemberId to, MapClass allowed, std::size_t limit) = 0;
+  // A packet of exactly this class. Nothing: nothing of it to send there until Endpoint::wake().
+  virtual std::optional<Packet> next_for(MemberId to, MapClass wanted, std::size_t limit) = 0;
   // For all who hear this interface; nobody acknowledges those.
   virtual std::optional<Packet> next_for_group(InterfaceIndex, std::size_t) { return {}; }
   virtual void on_acknowledged(MemberId, std::uint64_t ticket) = 0;
@@ -100,9 +116,6 @@ struct Datagram {
   std::vector<std::uint8_t> bytes;
 };
 
-// Everything that came in and was not used, by reason; bytes and packets out, by class.
-struct EndpointCounts;
-
 // One node of the mesh as a state machine: bytes and time in, bytes and events out. It reads no
 // clock, opens no socket, draws no randomness of its own. One thread at a time.
 class Endpoint {
@@ -111,6 +124,7 @@ class Endpoint {
            MapSource& source);
   ~Endpoint();
 
+  // The address is the sender's, whether it went to us or to the group.
   void on_datagram(MeshTime now, const MeshPath& from, std::span<const std::uint8_t> bytes);
   // The next datagram to send now; call until there is none.
   std::optional<Datagram> poll_transmit(MeshTime now);
@@ -128,17 +142,21 @@ class Endpoint {
   tl::expected<ParcelKey, SendError> send_parcel(MeshTime now, MemberId to, ParcelClass priority,
                                                  std::span<const std::uint8_t> bytes);
   // The layer above has stored what arrived.
-  void finish_parcel(MemberId from, ParcelKey key);
+  void finish_parcel(MeshTime now, MemberId from, ParcelKey key);
   // MapSource has something for this member again, or for the group of this interface.
   void wake(MeshTime now, MemberId member);
   void wake_group(MeshTime now, InterfaceIndex interface);
 
-  std::vector<Member> members() const;
+  std::vector<Member> members(MeshTime now) const;
   const EndpointCounts& counts() const;
   std::size_t memory_bytes() const;
 
   // What is unfinished, as bytes: parcels not handed over, streams, which were finished. Given to a
-  // new Endpoint of the same member before anything else. False if the bytes are not sound.
+  // new Endpoint of the same member before anything else; false if the bytes are not sound.
+  // Exactly once through crashes at any time, if the layer above (1) stores what save() gives right
+  // after restore(), (2) stores what a parcel brought together with the save() after its
+  // finish_parcel(), before the next poll_transmit(), (3) counts a parcel as accepted once the
+  // save() after its send_parcel() is stored. Else at most a repetition, never a loss.
   std::vector<std::uint8_t> save() const;
   bool restore(std::span<const std::uint8_t> saved);
 

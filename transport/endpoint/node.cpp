@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/endpoint/node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace warren {
+namespace {
+
+// While nobody is in reach: beacons are so short and few that any figure does.
+constexpr double kUnknownPace = 125'000.0;
+
+template <typename... Visits>
+struct Visitor : Visits... {
+  using Visits::operator()...;
+};
+template <typename... Visits>
+Visitor(Visits...) -> Visitor<Visits...>;
+
+}  // namespace
+
+Node::Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule> key_schedule,
+           MapSource& map_source)
+    : config(node_config),
+      keys(std::move(key_schedule)),
+      source(map_source),
+      jitter(node_config.random_seed),
+      sent_budget(node_config.parcels_bytes_max / 2),
+      received_budget(node_config.parcels_bytes_max / 2),
+      members(node_config.members_max) {
+  for (const InterfaceConfig& interface : config.interfaces) {
+    pacers.emplace_back(interface.ceiling_bit_s);
+  }
+}
+
+Peer* Node::find_or_add(MemberId id) {
+  if (Peer* known = members.find(id)) return known;
+  if (members.full()) {
+    count(Unused::kMemberTableFull);
+    return nullptr;
+  }
+  const DeliveryConfig delivery;
+  auto peer = std::make_unique<Peer>(id, delivery, jitter.bits(), board, sent_budget,
+                                     received_budget, config.interfaces.size());
+  return &members.add(std::move(peer));
+}
+
+void Node::begin_session(MeshTime now, Peer& peer, BootId boot) {
+  if (peer.session) {
+    free_pair_number = std::max(free_pair_number, peer.session->keys.next_number());
+    settle(now, peer, peer.session->flow.abandon());
+    peer.outbox.on_peer_restarted();
+    peer.inbox.on_peer_restarted();
+    peer.scheduler.wake();
+    peer.paths.reset();
+    peer.answer.reset();
+    peer.repeat.reset();
+    events.emplace_back(MemberRestarted{peer.id});
+  }
+  RateController::Config rate;
+  rate.packet_bytes_max = 0;
+  for (const InterfaceConfig& interface : config.interfaces) {
+    rate.packet_bytes_max = std::max(rate.packet_bytes_max, interface.mtu_bytes);
+  }
+  members.begin_session(peer, Session{SessionKeys(*keys, config.boot, boot, free_pair_number),
+                                      Flow(rate), now, false, std::nullopt});
+}
+
+void Node::settle(MeshTime now, Peer& peer, const Flow::Outcome& outcome) {
+  for (const Ticket& ticket : outcome.acked) {
+    if (const auto* map = std::get_if<MapTicket>(&ticket)) {
+      source.on_acknowledged(peer.id, map->number);
+    } else {
+      peer.outbox.on_acked(now, ticket);
+    }
+  }
+  for (const Ticket& ticket : outcome.lost) {
+    std::visit(Visitor{[&](const MapTicket& map) {
+                         source.on_lost(peer.id, map.number);
+                         peer.scheduler.wake();
+                       },
+                       [&](const ParcelStateTicket&) { peer.inbox.on_lost(ticket); },
+                       [&](const auto&) { peer.outbox.on_lost(now, ticket); }},
+               ticket);
+  }
+}
+
+void Node::note_liveness(MeshTime now, Peer& peer) {
+  const auto changed = peer.liveness.update(now);
+  if (!changed) return;
+  if (*changed) {
+    events.emplace_back(MemberUp{peer.id});
+    somebody_came_up = true;
+  } else {
+    events.emplace_back(MemberDown{peer.id});
+  }
+}
+
+void Node::note_moved(MeshTime now, Peer& peer) {
+  peer.session->flow.on_path_changed(now);
+  events.emplace_back(MemberMoved{peer.id, *peer.paths.current()});
+}
+
+void Node::count_sent(std::size_t ip_bytes) {
+  ++counts.packets_out;
+  counts.ip_bytes_out += ip_bytes;
+}
+
+double Node::slowest_pace(MeshTime now, InterfaceIndex interface) const {
+  std::optional<double> slowest;
+  for (const auto& [id, peer] : members) {
+    if (!peer->in_reach(now) || peer->paths.current()->interface != interface) continue;
+    slowest = std::min(slowest.value_or(peer->session->flow.pace()), peer->session->flow.pace());
+  }
+  return slowest.value_or(kUnknownPace);
+}
+
+}  // namespace warren

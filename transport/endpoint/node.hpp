@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "transport/delivery/parcel_budget.hpp"
+#include "transport/delivery/telemetry_board.hpp"
+#include "transport/endpoint/endpoint.hpp"
+#include "transport/endpoint/jitter.hpp"
+#include "transport/endpoint/members.hpp"
+#include "transport/flow/node_pacer.hpp"
+
+namespace warren {
+
+// What the parts of an endpoint share.
+struct Node {
+  Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule> key_schedule,
+       MapSource& map_source);
+
+  // The member, made known if it is not; none if there is no room for it.
+  Peer* find_or_add(MemberId id);
+  // A pair packet proved this boot.
+  void begin_session(MeshTime now, Peer& peer, BootId boot);
+  // Tells everybody what became of what was sent.
+  void settle(MeshTime now, Peer& peer, const Flow::Outcome& outcome);
+  void note_liveness(MeshTime now, Peer& peer);
+  void note_moved(MeshTime now, Peer& peer);
+
+  void count(Unused reason) { ++counts[reason]; }
+  void count_sent(std::size_t ip_bytes);
+  std::size_t ip_bytes(InterfaceIndex interface, std::size_t packet_bytes) const {
+    return config.interfaces[interface].ip_header_bytes + packet_bytes;
+  }
+  // The slowest of those in reach there, IP bytes/s: what a packet for all takes its airtime by.
+  double slowest_pace(MeshTime now, InterfaceIndex interface) const;
+
+  EndpointConfig config;
+  std::shared_ptr<const KeySchedule> keys;
+  MapSource& source;
+  EndpointCounts counts;
+  std::deque<MeshEvent> events;
+  Jitter jitter;
+  TelemetryBoard board;
+  ParcelBudget sent_budget;
+  ParcelBudget received_budget;
+  Members members;
+  std::vector<NodePacer> pacers;  // by interface
+  bool somebody_came_up = false;  // since Endpoint looked last
+  // Above all numbers used with pairs of which there is no session: none is ever used twice.
+  std::uint64_t free_pair_number = 0;
+};
+
+}  // namespace warren

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/endpoint/packet_builder.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace warren {
+namespace {
+
+// What a packet is about to be.
+struct Draft {
+  MeshPath to;
+  std::size_t room = 0;  // of the content
+  FilledPacket packet;
+  bool repeat = false;
+};
+
+bool answer_is_due(MeshTime now, const Peer& peer) { return peer.answer && peer.answer->at <= now; }
+
+std::size_t room_of(const Node& node, InterfaceIndex interface, std::size_t ip_bytes) {
+  const std::size_t overhead = node.config.interfaces[interface].ip_header_bytes + kEnvelopeBytes;
+  assert(ip_bytes > overhead);
+  return ip_bytes - overhead;
+}
+
+bool add_control(Draft& draft, Frame frame) {
+  const std::size_t bytes = encoded_bytes(frame);
+  if (draft.packet.bytes + bytes > draft.room) return false;
+  draft.packet.frames.push_back(std::move(frame));
+  draft.packet.bytes += bytes;
+  draft.packet.class_bytes[static_cast<std::size_t>(SendClass::kControl)] += bytes;
+  return true;
+}
+
+void add_hello(Draft& draft, MeshTime now, const Node& node, Peer& peer) {
+  const bool answers = answer_is_due(now, peer);
+  if (!answers && peer.session->knows_us) return;
+  add_control(draft, HelloFrame{node.config.self, answers && peer.answer->wants_answer});
+  if (answers) peer.answer.reset();
+}
+
+void add_acknowledgement(Draft& draft, MeshTime now, Flow& flow) {
+  if (!flow.ack_pending() && !flow.ack_due(now)) return;
+  if (auto ack = flow.take_ack(now)) add_control(draft, *std::move(ack));
+}
+
+// Makes the packet as large as the path is said to carry, or just a small one that asks whether
+// it passes.
+void add_size_probe(Draft& draft, const Node& node, MeshTime now, Peer& peer) {
+  PacketSize& size = peer.paths.size();
+  const std::size_t mtu = node.config.interfaces[draft.to.interface].mtu_bytes;
+  if (size.wants_large_probe(now)) {
+    size.on_large_probe(now);
+    draft.room = room_of(node, draft.to.interface, mtu);
+    PingFrame ping;
+    while (draft.packet.bytes + encoded_bytes(ping) < draft.room) {
+      const std::size_t missing = draft.room - draft.packet.bytes - encoded_bytes(ping);
+      ping.padding = static_cast<std::uint16_t>(ping.padding + std::max<std::size_t>(missing, 1));
+    }
+    if (draft.packet.bytes + encoded_bytes(ping) > draft.room) --ping.padding;
+    add_control(draft, ping);
+  } else if (size.wants_small_probe()) {
+    size.on_small_probe();
+    add_control(draft, PingFrame{});
+  }
+}
+
+void add_repeat(Draft& draft, MeshTime now, Peer& peer) {
+  if (!peer.repeat) return;
+  for (const Ticket& ticket : *std::exchange(peer.repeat, std::nullopt)) {
+    auto again = peer.outbox.again(ticket, draft.room - draft.packet.bytes);
+    if (!again) continue;
+    draft.packet.bytes += encoded_bytes(again->frame);
+    draft.packet.frames.push_back(std::move(again->frame));
+    draft.packet.tickets.push_back(again->ticket);
+    draft.repeat = true;
+  }
+  (void)now;
+}
+
+PullMap pull_for(Node& node, const Peer& peer) {
+  return [&node, id = peer.id](MapClass wanted, std::size_t limit) -> std::optional<PulledMap> {
+    auto packet = node.source.next_for(id, wanted, limit);
+    if (!packet) return std::nullopt;
+    assert(packet->bytes.size() <= limit && packet->priority == wanted);
+    return PulledMap{packet->ticket, std::move(packet->bytes)};
+  };
+}
+
+std::optional<Datagram> send(Node& node, MeshTime now, Peer& peer, Draft& draft) {
+  if (draft.packet.frames.empty()) return std::nullopt;
+  Session& session = *peer.session;
+  std::vector<std::uint8_t> content;
+  content.reserve(draft.packet.bytes);
+  bool wants_ack = false;
+  for (const Frame& frame : draft.packet.frames) {
+    append(content, frame);
+    wants_ack = wants_ack || !std::holds_alternative<AckFrame>(frame);
+  }
+  const std::uint64_t number = session.keys.next_number();
+  Datagram datagram{draft.to, session.keys.seal(content)};
+  const std::size_t ip_bytes = node.ip_bytes(draft.to.interface, datagram.bytes.size());
+  const bool backlogged =
+      node.pacers[draft.to.interface].on_sent(now, peer.id.number, ip_bytes, session.flow.pace());
+  session.flow.on_sent(now, {number, ip_bytes, wants_ack, backlogged, draft.repeat,
+                             std::move(draft.packet.tickets)});
+  if (wants_ack && !session.awaiting_since) session.awaiting_since = now;
+  node.count_sent(ip_bytes);
+  for (std::size_t i = 0; i < kSendClasses; ++i) {
+    if (draft.packet.class_bytes[i] == 0) continue;
+    ++node.counts.sent[i].packets;
+    node.counts.sent[i].bytes += draft.packet.class_bytes[i];
+  }
+  return datagram;
+}
+
+}  // namespace
+
+SendState send_state(const Node& node, MeshTime now, const Peer& peer) {
+  const Flow& flow = peer.session->flow;
+  const auto path = peer.paths.current();
+  const InterfaceIndex interface = path ? path->interface : InterfaceIndex { 0 };
+  return {now, flow.pace(), flow.quality(now).rtt.value_or(Duration{}),
+          node.config.interfaces[interface].ip_header_bytes + kEnvelopeBytes};
+}
+
+std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, PacketFill fill) {
+  Flow& flow = peer.session->flow;
+  Draft draft;
+  draft.to = answer_is_due(now, peer) ? peer.answer->path : *peer.paths.current();
+  const std::size_t mtu = node.config.interfaces[draft.to.interface].mtu_bytes;
+  draft.room = room_of(node, draft.to.interface,
+                       std::min(peer.paths.size().limit(mtu), flow.packet_bytes()));
+  add_hello(draft, now, node, peer);
+  add_acknowledgement(draft, now, flow);
+  const SendState state = send_state(node, now, peer);
+  if (fill == PacketFill::kUrgentOnly) {
+    peer.scheduler.fill_urgent(state, draft.room, peer.outbox, draft.packet);
+    return send(node, now, peer, draft);
+  }
+  add_size_probe(draft, node, now, peer);
+  peer.scheduler.fill(state, draft.room, peer.outbox, peer.inbox, pull_for(node, peer),
+                      draft.packet);
+  if (draft.packet.tickets.empty()) add_repeat(draft, now, peer);
+  return send(node, now, peer, draft);
+}
+
+}  // namespace warren

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "transport/delivery/inbox.hpp"
+#include "transport/delivery/outbox.hpp"
+#include "transport/delivery/scheduler.hpp"
+#include "transport/endpoint/liveness.hpp"
+#include "transport/endpoint/peer_paths.hpp"
+#include "transport/endpoint/session_keys.hpp"
+#include "transport/flow/flow.hpp"
+#include "transport/mesh_address.hpp"
+#include "transport/mesh_id.hpp"
+
+namespace warren {
+
+// With one boot of a peer, from its first pair packet on; it outlives any silence.
+struct Session {
+  SessionKeys keys;
+  Flow flow;
+  MeshTime since;
+  bool knows_us = false;  // it has our hello
+  // The first packet that wanted an acknowledgement since the peer was heard.
+  std::optional<MeshTime> awaiting_since;
+};
+
+// One member of the fleet but ourselves, through all its restarts.
+struct Peer {
+  // A small packet that goes at a time of its own: the answer to a beacon, to a hello, a proof of
+  // a path.
+  struct Answer {
+    MeshTime at;
+    MeshPath path;
+    bool wants_answer = false;
+  };
+
+  Peer(MemberId member, const DeliveryConfig& delivery, std::uint64_t fresh_stream,
+       const TelemetryBoard& board, ParcelBudget& sent, ParcelBudget& received,
+       std::size_t interfaces)
+      : id(member),
+        outbox(delivery, fresh_stream, board, sent),
+        inbox(delivery, received),
+        paths(interfaces) {}
+
+  MemberId id;
+  Outbox outbox;
+  Inbox inbox;
+  Scheduler scheduler;
+  Liveness liveness;
+  PeerPaths paths;
+  std::optional<Session> session;
+  std::optional<Answer> answer;
+  std::optional<std::vector<Ticket>> repeat;  // what an idle slot sends once more
+  // Where it stands in the endpoint's order.
+  MeshTime deadline = kNever;
+  bool prompt = false;                    // has something that does not wait for its turn
+  std::optional<InterfaceIndex> in_turn;  // wants a turn there
+
+  // Nothing was heard for long though an answer was to be expected.
+  bool is_silent(MeshTime now) const {
+    if (!session || !session->awaiting_since) return false;
+    const Duration rtt = session->flow.quality(now).rtt.value_or(Duration{});
+    return now - *session->awaiting_since > std::max(kSilence, kSilenceRtts * rtt);
+  }
+  // Packets may go to it whenever there is something.
+  bool in_reach(MeshTime now) const { return session && liveness.up() && !is_silent(now); }
+
+  static constexpr Duration kSilence = std::chrono::milliseconds(1500);
+  static constexpr int kSilenceRtts = 4;
+};
+
+}  // namespace warren

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/endpoint/session_keys.hpp"
+
+#include <algorithm>
+
+namespace warren {
+
+SessionKeys::SessionKeys(const KeySchedule& keys, BootId self, BootId peer,
+                         std::uint64_t first_number)
+    : self_(self),
+      peer_(peer),
+      sealing_(keys.pair_key(self, peer)),
+      opening_(keys.pair_key(peer, self)),
+      group_(keys.group_key(peer)),
+      next_number_(first_number) {}
+
+std::vector<std::uint8_t> SessionKeys::seal(std::span<const std::uint8_t> content) {
+  return warren::seal(sealing_, {PacketType::kPair, self_, next_number_++}, content);
+}
+
+tl::expected<SessionKeys::Content, Unused> SessionKeys::open(const PacketHeader& header,
+                                                             std::span<const std::uint8_t> packet) {
+  const bool pair = header.type == PacketType::kPair;
+  ReplayWindow& window = pair                                 ? pair_window_
+                         : header.type == PacketType::kBeacon ? beacon_window_
+                                                              : group_window_;
+  if (!window.is_new(header.number)) return tl::unexpected(Unused::kReplayed);
+  auto content = warren::open(pair ? opening_ : group_, packet);
+  if (!content) return tl::unexpected(Unused::kNotAuthentic);
+  window.mark(header.number);
+  if (pair) newest_pair_end_ = std::max(newest_pair_end_, header.number + 1);
+  return *std::move(content);
+}
+
+}  // namespace warren
