@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/sim/simulation.hpp"
+
+namespace warren::sim {
+
+struct ScenarioOutcome {
+  std::vector<std::string> failures;
+  std::string story;     // what the links were and what was done to the nodes
+  double seconds = 0.0;  // of virtual time
+};
+
+// A small fleet, links, loads and troubles, all drawn from the seed. Afterwards everything heals,
+// and what was promised must be kept.
+ScenarioOutcome run_scenario(std::uint64_t seed, Planted planted = Planted::kNone);
+
+}  // namespace warren::sim

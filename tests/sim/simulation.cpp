@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "tools/world/random.hpp"
+#include "transport/wire/envelope.hpp"
+
+namespace warren::sim {
+namespace {
+
+// A driver that is asked more often than this for each packet loops.
+constexpr std::uint64_t kPollsPerSecondMax = 40'000;
+constexpr Duration kMemoryEvery = std::chrono::seconds(1);
+
+template <typename... Visits>
+struct Visitor : Visits... {
+  using Visits::operator()...;
+};
+template <typename... Visits>
+Visitor(Visits...) -> Visitor<Visits...>;
+
+std::uint64_t name_of(std::uint32_t from, std::uint64_t number, bool urgent) {
+  return std::uint64_t{from} << 40U | (urgent ? std::uint64_t{1} << 39U : 0) | number;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Config& config) : config_(config), changed_(config.nodes) {
+  Key fleet_key{};
+  fleet_key[0] = 7;
+  keys_ = std::make_shared<PresharedKeys>(fleet_key);
+  world::Random random(config.seed);
+  for (LinkModelConfig network : config_.networks) {
+    network.stations = config_.nodes;
+    network.seed = random.next();
+    networks_.push_back(std::make_unique<LinkModel>(network));
+  }
+  nodes_.resize(config_.nodes);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].id = static_cast<std::uint32_t>(i + 1);
+    nodes_[i].source = std::make_unique<SimSource>(nodes_[i].id, ledger_);
+    if (config_.planted == Planted::kStarved) nodes_[i].source->starved = MapClass::kBacklog;
+    nodes_[i].addresses.resize(networks_.size());
+    for (std::size_t k = 0; k < networks_.size(); ++k) change_address(i, k);
+  }
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::change_address(std::size_t index, std::size_t interface) {
+  MeshAddress& address = nodes_[index].addresses[interface];
+  by_address_.erase(address);
+  const std::uint32_t number = ++addresses_given_;
+  address = {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, static_cast<std::uint8_t>(interface),
+              static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number)},
+             7700};
+  by_address_[address] = index;
+}
+
+void Simulation::start(std::size_t index) {
+  SimNode& node = nodes_[index];
+  assert(!node.endpoint);
+  world::Random random(config_.seed * 1'000'003 + ++boots_);
+  EndpointConfig config;
+  config.self = {node.id};
+  config.boot = {random.next()};
+  config.random_seed = random.next();
+  for (std::size_t k = 0; k < networks_.size(); ++k) {
+    config.interfaces.push_back(config_.interface);
+    if (!config_.seeds_instead_of_group) continue;
+    for (std::size_t other = 0; other < nodes_.size(); ++other) {
+      if (other != index) config.interfaces.back().seeds.push_back(nodes_[other].addresses[k]);
+    }
+  }
+  node.endpoint = std::make_unique<Endpoint>(config, keys_, *node.source);
+  if (!node.store.empty()) {
+    if (!node.endpoint->restore(node.store)) ledger_.fail(now_, "a store was not taken back");
+    node.store = node.endpoint->save();
+  }
+  changed_[index] = true;
+}
+
+void Simulation::stop(std::size_t index) {
+  nodes_[index].endpoint.reset();
+  nodes_[index].source->on_restart();
+  ++nodes_[index].life;
+}
+
+void Simulation::lose_store(std::size_t index) {
+  nodes_[index].store.clear();
+  ledger_.on_store_lost(nodes_[index].id);
+}
+
+void Simulation::step_clock(std::size_t index, Duration ahead) {
+  nodes_[index].clock_offset += ahead;
+  changed_[index] = true;
+}
+
+void Simulation::at(MeshTime when, std::function<void()> action) {
+  actions_.emplace(when, std::move(action));
+}
+
+bool Simulation::send_parcel(std::size_t from, std::size_t to, ParcelClass priority,
+                             std::size_t bytes) {
+  SimNode& node = nodes_[from];
+  if (!node.endpoint) return false;
+  const std::uint64_t number = node.next_number++;
+  const auto payload = stamped({node.id, 0, 0, number}, bytes);
+  const auto key = node.endpoint->send_parcel(local(node), {nodes_[to].id}, priority, payload);
+  changed_[from] = true;
+  if (!key) return false;
+  Ledger::Parcel parcel;
+  parcel.from = node.id;
+  parcel.to = nodes_[to].id;
+  parcel.number = number;
+  parcel.bytes = payload.size();
+  parcel.sent = now_;
+  ledger_.on_parcel_sent(now_, parcel, *key);
+  node.store = node.endpoint->save();
+  return true;
+}
+
+void Simulation::send_urgent(std::size_t from, std::optional<std::size_t> to) {
+  SimNode& node = nodes_[from];
+  if (!node.endpoint) return;
+  const std::uint64_t number = node.next_number++;
+  sent_at_[name_of(node.id, number, true)] = now_;
+  std::optional<MemberId> member;
+  if (to) member = MemberId{nodes_[*to].id};
+  (void)node.endpoint->send_urgent(local(node), member, stamped({node.id, 0, 0, number}, 40));
+  changed_[from] = true;
+}
+
+void Simulation::set_telemetry(std::size_t from, std::uint16_t key, std::size_t bytes) {
+  SimNode& node = nodes_[from];
+  if (!node.endpoint) return;
+  const std::uint64_t number = node.telemetry_number++;
+  sent_at_[name_of(node.id, number, false)] = now_;
+  (void)node.endpoint->set_telemetry(local(node), key,
+                                     stamped({node.id, node.life, key, number}, bytes));
+  changed_[from] = true;
+}
+
+void Simulation::add_map(std::size_t from, std::size_t to, MapClass priority, std::uint64_t bytes) {
+  SimNode& node = nodes_[from];
+  node.source->add({nodes_[to].id}, priority, bytes);
+  if (node.endpoint) node.endpoint->wake(local(node), {nodes_[to].id});
+  changed_[from] = true;
+}
+
+void Simulation::inject(std::size_t to, std::size_t interface, const MeshAddress& from,
+                        std::vector<std::uint8_t> bytes) {
+  SimNode& node = nodes_[to];
+  if (!node.endpoint) return;
+  node.endpoint->on_datagram(local(node), {static_cast<InterfaceIndex>(interface), false, from},
+                             bytes);
+  changed_[to] = true;
+}
+
+void Simulation::send(SimNode& node, const Datagram& datagram) {
+  const std::size_t index = index_of(node);
+  if (on_sent) on_sent(index, datagram);
+  StationIndex to = kEveryStation;
+  if (!datagram.to.group) {
+    const auto known = by_address_.find(datagram.to.address);
+    // Nobody has the address any more: it takes its airtime and reaches nobody.
+    to = known == by_address_.end() ? static_cast<StationIndex>(index)
+                                    : static_cast<StationIndex>(known->second);
+  }
+  ledger_.on_datagram(now_, to, datagram.bytes);
+  if (config_.planted == Planted::kNonceReused && now_ > MeshTime(std::chrono::seconds(2))) {
+    auto other = datagram.bytes;
+    other.back() ^= 1U;
+    ledger_.on_datagram(now_, to, other);
+  }
+  if (to == index || (datagram.to.group && config_.seeds_instead_of_group)) return;
+  const std::size_t overhead = config_.interface.ip_header_bytes;
+  networks_[datagram.to.interface]->send(now_, {static_cast<StationIndex>(index), to,
+                                                datagram.bytes.size() + overhead, datagram.bytes});
+}
+
+void Simulation::pump(SimNode& node) {
+  if (!node.endpoint) return;
+  node.source->set_now(now_);
+  while (const auto datagram = node.endpoint->poll_transmit(local(node))) send(node, *datagram);
+  ++node.polls;
+  bool events = false;
+  while (auto event = node.endpoint->poll_event()) {
+    on_event(node, std::move(*event));
+    events = true;
+  }
+  // What the events caused, as receipts.
+  if (events) changed_[index_of(node)] = true;
+}
+
+void Simulation::on_parcel(SimNode& node, const ParcelArrived& parcel) {
+  if (config_.planted == Planted::kFragmentLost && parcel.bytes.size() % 2 == 1) return;
+  ledger_.on_parcel_arrived(now_, node.id, parcel.bytes);
+  if (config_.planted == Planted::kParcelTwice) {
+    ledger_.on_parcel_arrived(now_, node.id, parcel.bytes);
+  }
+  node.endpoint->finish_parcel(local(node), parcel.from, parcel.key);
+  node.store = node.endpoint->save();
+}
+
+void Simulation::on_event(SimNode& node, MeshEvent&& event) {
+  const auto latency = [&](const std::vector<std::uint8_t>& bytes, bool urgent) {
+    const auto stamp = read_stamped(bytes);
+    return stamp ? now_ - sent_at_[name_of(stamp->from, stamp->number, urgent)] : Duration{};
+  };
+  const auto arrived = [&] {
+    if (!node.first_arrival) node.first_arrival = now_;
+  };
+  std::visit(
+      Visitor{[&](const UrgentArrived& urgent) {
+                arrived();
+                ledger_.on_urgent(now_, node.id, node.life, urgent.bytes);
+                node.urgent_latency.push_back(latency(urgent.bytes, true));
+              },
+              [&](const TelemetryArrived& telemetry) {
+                arrived();
+                ledger_.on_telemetry(now_, node.id, node.life, telemetry.bytes);
+                node.telemetry_latency.push_back(latency(telemetry.bytes, false));
+                if (config_.planted != Planted::kTelemetryStale) return;
+                if (!planted_telemetry_.empty()) {
+                  ledger_.on_telemetry(now_, node.id, node.life, planted_telemetry_);
+                }
+                planted_telemetry_ = telemetry.bytes;
+              },
+              [&](const ParcelArrived& parcel) {
+                arrived();
+                on_parcel(node, parcel);
+              },
+              [&](const ParcelDelivered& parcel) {
+                ledger_.on_parcel_delivered(now_, node.id, parcel.to.number, parcel.key);
+                node.store = node.endpoint->save();
+              },
+              [&](const MapArrived& map) {
+                arrived();
+                ledger_.on_map(now_, node.id, map.bytes);
+              },
+              [&](const MemberUp& up) { ++node.members_up[up.member.number]; }, [](const auto&) {}},
+      event);
+}
+
+void Simulation::deliver() {
+  for (std::size_t k = 0; k < networks_.size(); ++k) {
+    while (auto delivery = networks_[k]->poll(now_)) {
+      SimNode& node = nodes_[delivery->to];
+      if (!node.endpoint) continue;
+      const MeshPath from{static_cast<InterfaceIndex>(k), delivery->group,
+                          nodes_[delivery->from].addresses[k]};
+      node.endpoint->on_datagram(local(node), from, delivery->bytes);
+      changed_[delivery->to] = true;
+    }
+  }
+}
+
+MeshTime Simulation::next_time() const {
+  MeshTime next = kNever;
+  if (!actions_.empty()) next = actions_.begin()->first;
+  for (const auto& network : networks_) next = std::min(next, network->next_event());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!nodes_[i].endpoint) continue;
+    if (changed_[i]) return now_;
+    const MeshTime deadline = nodes_[i].endpoint->next_deadline();
+    if (deadline <= local(nodes_[i])) return now_;
+    if (deadline != kNever) next = std::min(next, deadline - nodes_[i].clock_offset);
+  }
+  return std::max(next, now_);
+}
+
+void Simulation::check_memory() {
+  if (now_ - memory_checked_ < kMemoryEvery) return;
+  const auto seconds =
+      static_cast<std::uint64_t>((now_ - memory_checked_) / std::chrono::seconds(1)) + 1;
+  memory_checked_ = now_;
+  if (config_.planted == Planted::kLeak) planted_leak_ += config_.memory_max / 10;
+  for (SimNode& node : nodes_) {
+    if (node.endpoint) {
+      ledger_.on_memory(now_, node.id, node.endpoint->memory_bytes() + planted_leak_,
+                        config_.memory_max);
+    }
+    if (node.polls > kPollsPerSecondMax * seconds) {
+      ledger_.fail(now_, "node " + std::to_string(node.id) +
+                             " loops: " + std::to_string(node.polls) + " polls");
+    }
+    node.polls = 0;
+  }
+}
+
+bool Simulation::run_until(MeshTime end, const std::function<bool()>& done) {
+  while (true) {
+    const MeshTime next = next_time();
+    if (next > end) break;
+    now_ = next;
+    while (!actions_.empty() && actions_.begin()->first <= now_) {
+      const auto action = std::move(actions_.begin()->second);
+      actions_.erase(actions_.begin());
+      action();
+    }
+    deliver();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      SimNode& node = nodes_[i];
+      if (!node.endpoint) continue;
+      if (!changed_[i] && node.endpoint->next_deadline() > local(node)) continue;
+      changed_[i] = false;
+      pump(node);
+    }
+    check_memory();
+    if (done()) return true;
+  }
+  now_ = end;
+  return false;
+}
+
+}  // namespace warren::sim
