@@ -131,3 +131,16 @@ TEST_CASE("crashes lose no parcel that was saved, and repeat none") {
     check_all_stored(pair, 1);
   }));
 }
+
+TEST_CASE("a receiver with less room than its sender thinks gets all parcels nevertheless") {
+  CHECK(rc::check("a receiver with less room", [](std::uint64_t seed) {
+    DeliveryConfig narrow = small_config();
+    narrow.parcel.received_bytes_max = ParcelBudget::charge(ParcelFrame::kBytesMax) + 90'000;
+    narrow.parcel.unfinished_max = 5;
+    ToyPair pair(small_config(), narrow, seed);
+    run(pair, {0.1, 0.01, 0.0, true}, 400);
+    for (std::size_t i = 0; i < 2; ++i) pair.node(i).save();
+    RC_ASSERT(settle(pair, 20'000));
+    check_all_stored(pair, 0);
+  }));
+}

@@ -7,8 +7,8 @@
 
 namespace warren::test {
 
-ToyPair::ToyPair(const DeliveryConfig& config, std::uint64_t seed)
-    : random_(seed), nodes_{ToyNode(config, seed + 1), ToyNode(config, seed + 2)} {}
+ToyPair::ToyPair(const DeliveryConfig& first, const DeliveryConfig& second, std::uint64_t seed)
+    : random_(seed), nodes_{ToyNode(first, seed + 1), ToyNode(second, seed + 2)} {}
 
 void ToyPair::step() {
   now_ += kStep;

@@ -21,7 +21,8 @@ struct ChannelFaults {
 // lost after a while, refuse packets for an earlier life, notice restarts.
 class ToyPair {
  public:
-  ToyPair(const DeliveryConfig& config, std::uint64_t seed);
+  ToyPair(const DeliveryConfig& config, std::uint64_t seed) : ToyPair(config, config, seed) {}
+  ToyPair(const DeliveryConfig& first, const DeliveryConfig& second, std::uint64_t seed);
 
   ChannelFaults faults;
   std::size_t room = 1200;

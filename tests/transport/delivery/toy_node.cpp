@@ -7,6 +7,22 @@
 
 namespace warren::test {
 
+namespace {
+
+std::vector<std::uint8_t> bytes_of(std::uint32_t number) {
+  std::vector<std::uint8_t> bytes(4);
+  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(number >> 8 * i);
+  return bytes;
+}
+
+std::uint32_t number_in(const std::vector<std::uint8_t>& bytes) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i) number |= std::uint32_t{bytes.at(i)} << 8 * i;
+  return number;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> parcel_bytes(std::uint64_t id, std::size_t size) {
   Random random(id);
   std::vector<std::uint8_t> bytes(std::max<std::size_t>(size, 8));
@@ -50,14 +66,12 @@ std::optional<ParcelKey> ToyNode::send_parcel(std::uint64_t id, std::size_t size
   return *key;
 }
 
-void ToyNode::set_telemetry(std::uint16_t key, std::vector<std::uint8_t> bytes) {
-  if (board_->set(key, bytes)) outbox_->on_telemetry_set(key);
+void ToyNode::set_telemetry(std::uint16_t key, std::uint32_t value) {
+  if (board_->set(key, bytes_of(value))) outbox_->on_telemetry_set(key);
 }
 
 void ToyNode::send_urgent(MeshTime now, std::uint32_t number) {
-  std::vector<std::uint8_t> bytes(4);
-  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(number >> 8 * i);
-  outbox_->send_urgent(now, bytes);
+  outbox_->send_urgent(now, bytes_of(number));
 }
 
 FilledPacket ToyNode::fill(MeshTime now, std::size_t room) {
@@ -68,16 +82,6 @@ FilledPacket ToyNode::fill(MeshTime now, std::size_t room) {
   assert(packet.bytes <= room);
   return packet;
 }
-
-namespace {
-
-std::uint32_t number_in(const std::vector<std::uint8_t>& bytes) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i) number |= std::uint32_t{bytes.at(i)} << 8 * i;
-  return number;
-}
-
-}  // namespace
 
 void ToyNode::on_frames(MeshTime now, std::vector<Frame> frames) {
   for (Frame& frame : frames) {
@@ -92,9 +96,8 @@ void ToyNode::on_frames(MeshTime now, std::vector<Frame> frames) {
       arrived_.push_back(std::move(*parcel));
     if (const auto* message = std::get_if<UrgentReceived>(&*received))
       urgent.push_back(number_in(message->bytes));
-    if (const auto* value = std::get_if<TelemetryReceived>(&*received)) {
-      if (value->key == 7) telemetry.push_back(number_in(value->bytes));
-    }
+    if (const auto* value = std::get_if<TelemetryReceived>(&*received))
+      telemetry[value->key].push_back(number_in(value->bytes));
   }
 }
 

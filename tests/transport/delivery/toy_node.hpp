@@ -40,10 +40,10 @@ class ToyNode {
   std::set<std::uint64_t> sent;
   std::vector<std::uint64_t> delivered;  // known here to be stored at the other side
   std::vector<std::uint32_t> urgent;     // in order of arrival
-  std::vector<std::uint32_t> telemetry;  // values of key 7
+  std::map<std::uint16_t, std::vector<std::uint32_t>> telemetry;  // values by key
 
   std::optional<ParcelKey> send_parcel(std::uint64_t id, std::size_t size, ParcelClass priority);
-  void set_telemetry(std::uint16_t key, std::vector<std::uint8_t> bytes);
+  void set_telemetry(std::uint16_t key, std::uint32_t value);
   void send_urgent(MeshTime now, std::uint32_t number);
   FilledPacket fill(MeshTime now, std::size_t room);
   void on_frames(MeshTime now, std::vector<Frame> frames);
