@@ -13,34 +13,6 @@ namespace {
 // So that reading does not keep the node from sending: the rest comes after the next turn.
 constexpr int kReadsPerTurn = 64;
 
-void count_failure(SocketCounts& counts, int error) {
-  switch (error) {
-    case EMSGSIZE:
-      ++counts.too_large;
-      return;
-    case ENETUNREACH:
-    case EHOSTUNREACH:
-    case ENETDOWN:
-    case EHOSTDOWN:
-    case EADDRNOTAVAIL:
-    case ENODEV:
-    case ENXIO:
-      ++counts.unreachable;
-      return;
-    case EAGAIN:
-    case ENOBUFS:
-    case ENOMEM:
-      ++counts.buffers_full;
-      return;
-    case EPERM:
-    case EACCES:
-      ++counts.not_permitted;
-      return;
-    default:
-      ++counts.send_failed;
-  }
-}
-
 }  // namespace
 
 InterfaceSockets::InterfaceSockets(const MeshSocketsConfig& config, SocketInterface interface,
@@ -152,7 +124,7 @@ void InterfaceSockets::send_to_group(std::span<const std::uint8_t> bytes) {
 void InterfaceSockets::send_from(const Family& family, const MeshAddress& to,
                                  std::span<const std::uint8_t> bytes) {
   if (const int error = family.own->socket().send(to, bytes)) {
-    count_failure(counts_, error);
+    count_send_failure(counts_, error);
     return;
   }
   ++counts_.sent;

@@ -15,6 +15,7 @@ namespace {
 constexpr int kSendsPerTurn = 128;
 // A deadline that is over is served after this: other handlers have their turn.
 constexpr Duration kWaitMin{20};
+constexpr Duration kWaitMax = std::chrono::hours(1);
 
 }  // namespace
 
@@ -74,11 +75,11 @@ struct MeshRunner::State : std::enable_shared_from_this<State> {
 
   void wait_for_deadline() {
     if (stopped) return;
-    const MeshTime wanted = endpoint.next_deadline();
-    if (wanted == kNever) return;
-    const MeshTime deadline = std::max(wanted, now() + kWaitMin);
+    const MeshTime time = now();
+    const MeshTime deadline =
+        std::clamp(endpoint.next_deadline(), time + kWaitMin, time + kWaitMax);
     // An earlier one that still waits costs one turn; setting the timer anew, two system calls.
-    if (timer_set && deadline >= timer.expiry() && timer.expiry() > now()) return;
+    if (timer_set && deadline >= timer.expiry() && timer.expiry() > time) return;
     timer_set = true;
     timer.expires_at(deadline);
     timer.async_wait([weak = weak_from_this()](const asio::error_code& error) {

@@ -23,4 +23,7 @@ struct SocketCounts {
   std::uint64_t receive_failed = 0;
 };
 
+// By the errno of a send.
+void count_send_failure(SocketCounts& counts, int error);
+
 }  // namespace warren

@@ -23,8 +23,10 @@ void SocketReader::start() {
 
 void SocketReader::stop() {
   if (std::exchange(stopped_, true)) return;
-  // The descriptor belongs to the socket.
+  // The descriptor belongs to the socket. It goes now and not with the last handler that holds us:
+  // the next socket wants its port.
   waiter_.release();
+  socket_.close();
 }
 
 }  // namespace warren

@@ -26,8 +26,10 @@ ssize_t send_to(int descriptor, std::span<const std::uint8_t> bytes, const socka
 
 }  // namespace
 
-UdpSocket::~UdpSocket() {
-  if (descriptor_ >= 0) close(descriptor_);
+UdpSocket::~UdpSocket() { close(); }
+
+void UdpSocket::close() {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
 }
 
 UdpSocket::Opened UdpSocket::make(const SocketPlace& place) {

@@ -42,6 +42,7 @@ class UdpSocket {
       : place_(std::move(other.place_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
   UdpSocket& operator=(UdpSocket&&) = delete;
 
+  void close();  // nothing else may be called then
   int descriptor() const { return descriptor_; }
   std::uint16_t port() const;
   // 0, or why not.
