@@ -24,9 +24,11 @@ void ArrivalRate::on_ack(MeshTime now, const AckFrame& ack, const AckReport& rep
   if (marks_.size() > kMarksMax) marks_.pop_front();
 }
 
-std::optional<ArrivalRate::Measure> ArrivalRate::since(MeshTime time, double pairs) const {
+std::optional<ArrivalRate::Measure> ArrivalRate::since(MeshTime time, double pairs,
+                                                       MeshTime earliest) const {
   // The youngest mark that is old enough and has enough after it.
   for (auto mark = marks_.rbegin(); mark != marks_.rend(); ++mark) {
+    if (mark->time < earliest) return {};
     if (mark->time > time || total_.sent.busy_pairs - mark->sent.busy_pairs < pairs) continue;
     return since(*mark);
   }
@@ -38,16 +40,21 @@ std::optional<ArrivalRate::Measure> ArrivalRate::since(const Mark& from) const {
   const double sent_bytes = total_.sent.ip_bytes - from.sent.ip_bytes;
   const double arrived_bytes = total_.arrived_bytes - from.arrived_bytes;
   const double busy = us(total_.sent.busy - from.sent.busy);
+  const double busy_own = us(total_.sent.busy_own - from.sent.busy_own);
   const double own = us(total_.sent.own - from.sent.own);
-  if (pairs < 1.0 || busy <= 0.0 || own <= 0.0 || arrived_bytes <= 0.0) return {};
+  const double spacing = us(total_.sent.spacing - from.sent.spacing);
+  if (pairs < 1.0 || busy_own <= 0.0 || arrived_bytes <= 0.0) return {};
   // Both sides rarely count quite the same pairs: what is in flight differs.
   const double arrived_us = (total_.arrived_us - from.arrived_us) * sent_bytes / arrived_bytes;
-  const double queued_us = arrived_us - us(total_.sent.spacing - from.sent.spacing);
+  if (arrived_us <= 0.0) return {};
+  const double queued_us = arrived_us - spacing;
   Measure measure;
+  measure.arrival_rate = sent_bytes * 1e6 / arrived_us * spacing / own;
+  measure.busy = busy / spacing;
   measure.pairs = pairs;
   measure.stretch = std::max((busy + queued_us) / busy, kStretchMin);
   const double busy_bytes = total_.sent.busy_bytes - from.sent.busy_bytes;
-  measure.rate = busy_bytes * 1e6 / (own * measure.stretch);
+  measure.rate = busy_bytes * 1e6 / (busy_own * measure.stretch);
   return measure;
 }
 

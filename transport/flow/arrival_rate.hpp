@@ -18,8 +18,12 @@ namespace warren {
 class ArrivalRate {
  public:
   struct Measure {
-    double pairs = 0.0;    // between which the sender had no rest; all figures are of these
-    double rate = 0.0;     // IP bytes/s, while the interface worked for this peer
+    double arrival_rate = 0.0;  // IP bytes/s, without the time that went to other peers: the
+                                // link's rate if a queue stood all the time
+    double busy = 0.0;          // share of the time that the sender had no rest
+    // Of the pairs between which it had none:
+    double pairs = 0.0;
+    double rate = 0.0;     // IP bytes/s: the link's, or else the sender's pace
     double stretch = 1.0;  // arrival spacing / sending spacing: above 1 the link is too slow
   };
 
@@ -35,8 +39,9 @@ class ArrivalRate {
   Mark mark() const { return total_; }
   // Of what was acknowledged since then: nothing if no two consecutive packets were.
   std::optional<Measure> since(const Mark& from) const;
-  // Of what was acknowledged lately, or for longer if that was fewer than so many pairs.
-  std::optional<Measure> since(MeshTime time, double pairs) const;
+  // Of what was acknowledged since a time, or for longer if that was fewer than so many pairs, but
+  // nothing from before the earliest.
+  std::optional<Measure> since(MeshTime time, double pairs, MeshTime earliest = {}) const;
 
  private:
   static constexpr std::size_t kMarksMax = 256;

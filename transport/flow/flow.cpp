@@ -10,8 +10,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Duration kSilence = milliseconds{600};      // without progress, beyond round trips
-constexpr Duration kProbePeriod = milliseconds{200};  // one packet, while silent
+constexpr Duration kSilence = milliseconds{1500};  // without progress, beyond round trips
+constexpr Duration kQuiet = milliseconds{100};
+constexpr double kQuietShare = 0.75;                  // of the rate, while it is quiet
+constexpr Duration kProbePeriod = milliseconds{100};  // one packet, while silent
 constexpr double kRepeatShare = 0.04;                 // of the bytes sent for the first time
 constexpr double kRepeatBytesMax = 6'000.0;
 
@@ -29,7 +31,8 @@ void Flow::on_sent(MeshTime now, Sent sent) {
     repeat_bytes_ = std::min(repeat_bytes_ + kRepeatShare * bytes, kRepeatBytesMax);
   }
   // Full in flight is no want of something to send either.
-  const bool full = sent_.bytes_in_flight() + 2 * sent.ip_bytes > rate_.in_flight_max();
+  const bool full =
+      rate_.known() && sent_.bytes_in_flight() + 2 * sent.ip_bytes > in_flight_max(now);
   const Duration airtime{std::llround(bytes * 1e6 / rate_.pace())};
   const Duration spacing = now - last_sent_;
   last_sent_ = now;
@@ -96,11 +99,18 @@ MeshTime Flow::next_time() const {
   return next;
 }
 
+// When acknowledgements stay away altogether, rather than come slowly, they are lost: it goes on.
+std::size_t Flow::in_flight_max(MeshTime now) const {
+  const double waited = static_cast<double>((now - last_progress_ - kQuiet).count()) * 1e-6;
+  const double more = rate_.known() ? kQuietShare * rate_.rate() * std::max(waited, 0.0) : 0.0;
+  return rate_.in_flight_max() + static_cast<std::size_t>(more);
+}
+
 bool Flow::may_send(MeshTime now) const {
   if (!sent_.room()) return false;
   if (silent_) return now >= last_probe_ + kProbePeriod;
   if (now < rate_.paused_until()) return false;
-  return sent_.bytes_in_flight() + packet_bytes() <= rate_.in_flight_max();
+  return sent_.bytes_in_flight() + packet_bytes() <= in_flight_max(now);
 }
 
 LinkQuality Flow::quality(MeshTime) const {

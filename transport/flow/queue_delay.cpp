@@ -81,7 +81,7 @@ void QueueDelay::update_standing(MeshTime now, Duration queue) {
   std::size_t used = 0;
   for (; used < kept; ++used) {
     const Sample& sample = samples_[(count_ - 1 - used) % kSamples];
-    if (used >= kStandingSamples && now - sample.time > kStandingSpan) break;
+    if (used >= kStandingSamples && now - sample.time > kStandingSpan + 6 * jitter_) break;
     least = std::min(least, sample.queue);
     sum += sample.queue;
   }

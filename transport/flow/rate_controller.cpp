@@ -11,10 +11,12 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr double kFirstRate = 500'000.0;  // IP bytes/s, of the first packets
+constexpr double kCautiousRate = 50'000.0;
 constexpr double kRateMin = 1'000.0;
 constexpr double kRateMax = 1e9;
-constexpr std::size_t kFirstPackets = 4;  // in flight until something is known
-constexpr std::size_t kFirstPacketBytes = 600;
+constexpr std::size_t kFirstPackets = 8;  // in flight until something is known
+constexpr std::size_t kFirstPacketBytes = 400;
+constexpr double kStartGrowth = 4.0;  // in flight, per byte acknowledged while starting
 constexpr Duration kPacketAirtime = milliseconds{75};
 
 constexpr Duration kTargetFloor = milliseconds{8};
@@ -24,12 +26,15 @@ constexpr double kTargetRate = 125'000.0;
 constexpr Duration kInFlightQueue = milliseconds{150};
 constexpr std::size_t kInFlightPackets = 3;
 
+constexpr double kBusy = 0.7;  // of the time: less says little of the link
 constexpr double kFirstCaution = 0.8;
 constexpr double kGainSecond = 1.25;  // after a first flight that the link stretched
 constexpr double kGainFirst = 1.06;
 constexpr double kGainMax = 2.0;
 constexpr double kRaiseMax = 0.06;  // of the pace, while the queue is below its target
 constexpr double kLowerMax = 0.5;
+constexpr double kCertainty = 2.0;  // a probe's effect over the jitter
+constexpr double kFallMax = 0.05;   // for one probe that failed
 constexpr int kPlateauRounds = 6;
 constexpr double kRoundPairs = 6.0;
 constexpr Duration kFollowSpan = milliseconds{200};
@@ -48,9 +53,9 @@ RateController::RateController(const Config& config)
 void RateController::on_ack(MeshTime now, const AckFrame& ack, const AckReport& report,
                             std::uint64_t next) {
   arrivals_.on_ack(now, ack, report);
-  if (report.largest) queue_.on_sample(now, *report.largest, known_ ? rate_ : 0.0);
-  last_ack_ = now;
-  if (!known_) return judge_first_flight(next);
+  if (report.largest) queue_.on_sample(now, *report.largest, confirmed_rate_);
+  if (starting_) start_bytes_ = report.acked_bytes;
+  if (!known_) return judge_first_flight(report, next);
   fall_fast(now, next);
   follow_arrivals(now);
   watch_round(now, report, next);
@@ -64,9 +69,11 @@ void RateController::fall_fast(MeshTime now, std::uint64_t next) {
   if (queue_.standing() < limit + queue_.jitter()) return;
   const auto seen = arrivals_.since(now - milliseconds{30}, 4.0);
   if (!seen) return;
-  if (searching || seen->rate < 0.85 * rate_) {
-    set_rate(searching ? std::min(seen->rate, rate_ * gain_) : seen->rate);
-  }
+  const double seen_rate = seen->busy > kBusy ? seen->arrival_rate : seen->rate;
+  if (searching)
+    set_rate(std::min(seen_rate, rate_ * gain_));
+  else if (seen_rate < 0.85 * rate_)
+    set_rate(seen_rate);
   if (searching) {
     gain_ = 1.0;
     starting_ = false;
@@ -76,19 +83,34 @@ void RateController::fall_fast(MeshTime now, std::uint64_t next) {
 
 // While a queue stands, what arrives is what the link carries.
 void RateController::follow_arrivals(MeshTime now) {
-  if (starting_ || gain_ > 1.0) return;
-  if (queue_.standing() < target() / 4) return;
-  const auto seen = arrivals_.since(now - std::max(round_trip(), kFollowSpan), 12.0);
-  if (!seen) return;
-  const double share = std::clamp(s(now - last_ack_) / 0.1, 0.0, 1.0);
-  set_rate(rate_ + (seen->rate - rate_) * share);
+  if (starting_ || gain_ > 1.0) {
+    queued_since_ = now;
+    return;
+  }
+  if (!queue_shows()) {
+    queued_since_ = now;
+    return;
+  }
+  const Duration span = std::max({round_trip(), kFollowSpan, 20 * queue_.jitter()});
+  const auto seen = arrivals_.since(std::max(now - span, queued_since_), 12.0, queued_since_);
+  if (!seen || seen->busy < kBusy) return;
+  const double share = std::clamp(s(now - last_followed_) / 0.1, 0.0, 1.0);
+  set_rate(rate_ + (seen->arrival_rate - rate_) * share);
+  confirmed_rate_ = rate_;
+  last_followed_ = now;
 }
 
 // The first packets go out close together. If they arrive further apart, that is the link's rate;
 // else the link is faster yet.
-void RateController::judge_first_flight(std::uint64_t next) {
+void RateController::judge_first_flight(const AckReport& report, std::uint64_t next) {
   const auto seen = arrivals_.since(*round_.from);
-  if (!seen || seen->pairs < 2.0) return;
+  if (!seen || seen->pairs < 2.0) {
+    // Too few of it arrived to tell.
+    if (report.end < round_.first + kFirstPackets + 1) return;
+    set_rate(kCautiousRate);
+    gain_ = kGainMax;
+    return begin_round(next);
+  }
   const bool limited = seen->stretch > 1.2;
   set_rate(limited ? seen->rate * kFirstCaution : pace());
   gain_ = limited ? kGainSecond : kGainMax;
@@ -101,13 +123,14 @@ void RateController::begin_round(std::uint64_t next) {
 }
 
 void RateController::watch_round(MeshTime now, const AckReport& report, std::uint64_t next) {
-  if (queue_.standing() >= target() / 4) round_.queued = true;
+  if (queue_shows()) round_.queued = true;
   if (!round_.from) {
     if (report.end > round_.first) round_.from = arrivals_.mark();
     return;
   }
-  const Duration span =
-      std::max({round_trip() / 4, 4 * queue_.jitter(), Duration{milliseconds{10}}});
+  const double excess = gain_ > 1.0 ? gain_ - 1.0 : kGainFirst - 1.0;
+  const Duration certain = from_s(kCertainty * s(queue_.jitter()) / excess);
+  const Duration span = std::max({round_trip() / 4, certain, Duration{milliseconds{10}}});
   if (now - round_.from->time < span) return;
   const auto seen = arrivals_.since(*round_.from);
   if (!seen || seen->pairs < kRoundPairs) return;
@@ -131,7 +154,7 @@ void RateController::end_round(const ArrivalRate::Measure& seen) {
     set_rate(std::max(rate_, rate_ * gain_ * std::min(passed, 1.0)));
     gain_ = std::min(kGainMax, std::max(kGainFirst, 1.0 + 2.0 * (gain_ - 1.0)));
   } else {
-    set_rate(std::min(seen.rate, rate_ * gain_));
+    set_rate(std::clamp(seen.rate, rate_ * (1.0 - kFallMax), rate_ * gain_));
     gain_ = 1.0;
     starting_ = false;
     patience_ = kPlateauRounds;
@@ -141,7 +164,7 @@ void RateController::end_round(const ArrivalRate::Measure& seen) {
 // The base of the delay is only seen while the queue is empty; and a neighbour's flow that never
 // saw it empty takes ours for a part of its base.
 void RateController::empty_queue_sometimes(MeshTime now) {
-  if (starting_ || queue_.standing() < target() / 4) return;
+  if (starting_ || !queue_shows()) return;
   if (now - std::max(queue_.last_empty(), last_pause_) < kEmptyPeriod) return;
   last_pause_ = now;
   paused_until_ = now + queue_.standing() + target() / 2;
@@ -174,6 +197,10 @@ Duration RateController::target() const {
   return std::min(kTargetFloor + from_s(slope), Duration{kTargetMax});
 }
 
+bool RateController::queue_shows() const {
+  return queue_.standing() >= target() / 4 + queue_.jitter() / 2;
+}
+
 double RateController::pace() const {
   double pace = rate_ * gain_;
   if (!starting_ && gain_ <= 1.0) {
@@ -188,8 +215,9 @@ double RateController::pace() const {
 std::size_t RateController::in_flight_max() const {
   const auto packets = kInFlightPackets * packet_bytes();
   if (!known_) return kFirstPackets * packet_bytes();
-  const double trip = s(round_trip() + kInFlightQueue);
-  return packets + static_cast<std::size_t>(std::max(pace(), rate_) * trip);
+  double bytes = std::max(pace(), rate_) * s(round_trip() + kInFlightQueue);
+  if (starting_) bytes = std::min(bytes, kStartGrowth * start_bytes_);
+  return packets + static_cast<std::size_t>(bytes);
 }
 
 std::size_t RateController::packet_bytes() const {

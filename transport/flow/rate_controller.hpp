@@ -49,7 +49,7 @@ class RateController {
     bool queued = false;                    // a queue showed
   };
 
-  void judge_first_flight(std::uint64_t next);
+  void judge_first_flight(const AckReport& report, std::uint64_t next);
   void begin_round(std::uint64_t next);
   void end_round(const ArrivalRate::Measure& seen);
   void watch_round(MeshTime now, const AckReport& report, std::uint64_t next);
@@ -58,6 +58,7 @@ class RateController {
   void empty_queue_sometimes(MeshTime now);
   void set_rate(double rate);
   Duration target() const;
+  bool queue_shows() const;
   Duration round_trip() const;
 
   Config config_;
@@ -65,11 +66,14 @@ class RateController {
   QueueDelay queue_;
   Round round_;
   double rate_;
-  bool known_ = false;  // rate_ was measured
+  double confirmed_rate_ = 0.0;  // measured while a queue stood
+  bool known_ = false;           // rate_ was measured
   bool starting_ = true;
-  double gain_;       // above 1: looks for more
-  int patience_ = 0;  // rounds until it looks for more again
-  MeshTime last_ack_{};
+  double gain_;               // above 1: looks for more
+  double start_bytes_ = 0.0;  // acknowledged while starting
+  int patience_ = 0;          // rounds until it looks for more again
+  MeshTime queued_since_{};
+  MeshTime last_followed_{};
   MeshTime paused_until_{};
   MeshTime last_pause_{};
 };

@@ -14,7 +14,9 @@ constexpr double kAckShare = 0.025;        // of the bytes that arrive
 constexpr std::size_t kPacketsPerAck = 2;  // at least
 constexpr Duration kDelayMin = milliseconds{2};
 constexpr Duration kDelayMax = milliseconds{25};      // for one packet alone
-constexpr Duration kIntervalMax = milliseconds{120};  // between two, on the slowest links
+constexpr Duration kIntervalMax = milliseconds{240};  // between two, on the slowest links
+constexpr Duration kRest = milliseconds{500};         // after which
+constexpr int kQuickPackets = 16;                     // are acknowledged at once
 constexpr Duration kRepeatDelay = milliseconds{40};
 constexpr Duration kPairGapMax = std::chrono::seconds{1};
 constexpr int kTellTimes = 6;                 // a range, since its last change
@@ -29,6 +31,7 @@ Duration clamp_us(double us, Duration low, Duration high) {
 }  // namespace
 
 void ReceivedPackets::on_received(MeshTime now, const Packet& packet) {
+  if (now - last_arrival_ > kRest || ranges_.empty()) quick_ = kQuickPackets;
   measure_loss(packet.number);
   measure_rate(now, packet.ip_bytes);
   add_number(packet.number);
@@ -101,8 +104,11 @@ void ReceivedPackets::schedule(MeshTime now, bool wants_ack) {
   if (!wants_ack) return;
   ++unacked_;
   repeat_ = false;
-  const Duration interval =
-      clamp_us(kAckBytes * 1e6 / (kAckShare * rate_), kDelayMin, kIntervalMax);
+  Duration interval = clamp_us(kAckBytes * 1e6 / (kAckShare * rate_), kDelayMin, kIntervalMax);
+  if (quick_ > 0) {
+    --quick_;
+    interval = kDelayMin;
+  }
   const MeshTime earliest = std::max(now, last_ack_ + interval);
   const MeshTime at_last = std::max(earliest, now + std::max(interval, kDelayMax));
   const MeshTime due = unacked_ >= kPacketsPerAck ? earliest : at_last;

@@ -62,6 +62,7 @@ class ReceivedPackets {
   std::uint32_t pair_us_ = 0;
 
   std::size_t unacked_ = 0;  // wanted an acknowledgement since the last one was sent
+  int quick_ = 0;            // so many more are acknowledged quickly
   bool repeat_ = false;      // the last one is sent once more if nothing else comes
   MeshTime due_at_ = kNever;
   MeshTime last_ack_{};

@@ -15,6 +15,7 @@ constexpr std::uint64_t kPacketThreshold = 3;  // RFC 9002, 6.1.1
 constexpr Duration kReorderingMax = milliseconds{300};
 constexpr Duration kSilenceMin = milliseconds{80};  // delayed and lost acknowledgements
 constexpr Duration kSilenceMax = seconds{1};
+constexpr Duration kAlone = milliseconds{100};     // nothing was sent for so long
 constexpr Duration kFirstRtt = milliseconds{700};  // before one was measured
 constexpr Duration kDecayPeriod = seconds{1};
 constexpr Duration kRememberLost = seconds{4};        // to notice that it was only late
@@ -66,6 +67,7 @@ SentPackets::Settled SentPackets::on_ack(MeshTime now, const AckFrame& ack) {
   lose_overtaken(settled);
   forget_settled(now);
   settled.report.pairs = pairs_;
+  settled.report.acked_bytes = acked_bytes_;
   settled.report.end = *largest_acked_ + 1;
   return settled;
 }
@@ -86,6 +88,7 @@ void SentPackets::acknowledge(MeshTime now, std::uint64_t number, Settled& settl
   }
   if (record.packet.wants_ack) measure_loss(false);
   record.fate = Fate::kAcked;
+  acked_bytes_ += static_cast<double>(record.packet.ip_bytes);
   ++settled.report.newly_acked;
   move_all(record.packet.tickets, settled.acked);
   add_pairs(number);
@@ -97,11 +100,12 @@ void SentPackets::add_pairs(std::uint64_t number) {
     if (first->fate != Fate::kAcked || second->fate != Fate::kAcked) return;
     pairs_.ip_bytes += static_cast<double>(second->packet.ip_bytes);
     pairs_.spacing += second->packet.sent - first->packet.sent;
+    pairs_.own += second->packet.own;
     if (!second->packet.busy) return;
     pairs_.busy_pairs += 1.0;
     pairs_.busy_bytes += static_cast<double>(second->packet.ip_bytes);
     pairs_.busy += second->packet.sent - first->packet.sent;
-    pairs_.own += second->packet.own;
+    pairs_.busy_own += second->packet.own;
   };
   const Record* record = find(number);
   if (number > first_) add(find(number - 1), record);
@@ -131,17 +135,21 @@ void SentPackets::lose_overtaken(Settled& settled) {
   }
 }
 
-// From sending until a packet is held lost though nothing sent later arrived.
-Duration SentPackets::patience() const {
-  if (!smoothed_rtt_) return kFirstRtt;
-  return *smoothed_rtt_ + 4 * rtt_variation_ + std::max(ack_silence_, kSilenceMin);
+// When a packet is held lost though nothing sent later arrived. While more is being sent there is
+// no hurry: either the acknowledgements are lost, or one will soon say what arrived.
+MeshTime SentPackets::loss_time(const Packet& packet) const {
+  if (!smoothed_rtt_) return packet.sent + kFirstRtt;
+  const Duration trip = *smoothed_rtt_ + 4 * rtt_variation_;
+  const MeshTime alone = packets_.back().packet.sent + kAlone;
+  return std::min(std::max(packet.sent + trip + std::max(ack_silence_, kSilenceMin), alone),
+                  packet.sent + trip + kSilenceMax);
 }
 
 MeshTime SentPackets::loss_time() const {
   for (std::uint64_t number = std::max(undecided_, first_); number < end(); ++number) {
     const Record& record = packets_[number - first_];
     if (record.fate == Fate::kInFlight && record.packet.wants_ack) {
-      return record.packet.sent + patience();
+      return loss_time(record.packet);
     }
   }
   return kNever;
@@ -152,7 +160,7 @@ SentPackets::Settled SentPackets::on_time(MeshTime now) {
   for (; undecided_ < end(); ++undecided_) {
     Record* record = find(undecided_);
     if (record == nullptr || record->fate != Fate::kInFlight) continue;
-    if (record->packet.sent + patience() > now) break;
+    if (loss_time(record->packet) > now) break;
     lose(*record, settled);
   }
   forget_settled(now);

@@ -27,14 +27,16 @@ struct AckReport {
   struct PairSums {
     double ip_bytes = 0.0;  // of the second
     Duration spacing{};     // from one sending to the next
+    Duration own{};         // of that, without what went to other peers between
     // Of that, the pairs between which the sender had no rest.
     double busy_pairs = 0.0;
     double busy_bytes = 0.0;
     Duration busy{};
-    Duration own{};  // without what went to other peers between
+    Duration busy_own{};
   };
   std::optional<Largest> largest;
   PairSums pairs;
+  double acked_bytes = 0.0;     // IP bytes, from the first packet on
   std::size_t newly_acked = 0;  // packets, late ones included
   std::size_t newly_lost = 0;
   std::uint64_t end = 0;  // one more than the largest number acknowledged so far
@@ -104,7 +106,7 @@ class SentPackets {
   void measure_rtt(Duration rtt);
   void measure_loss(bool lost);
   void forget_settled(MeshTime now);
-  Duration patience() const;
+  MeshTime loss_time(const Packet& packet) const;
 
   std::deque<Record> packets_;  // numbers first_ to end() - 1
   std::uint64_t first_ = 0;
@@ -113,6 +115,7 @@ class SentPackets {
   std::size_t bytes_in_flight_ = 0;
   std::size_t packets_in_flight_ = 0;
   AckReport::PairSums pairs_;
+  double acked_bytes_ = 0.0;
 
   std::optional<Duration> smoothed_rtt_;
   Duration rtt_variation_{};
