@@ -153,12 +153,12 @@ void Reception::on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack
 }
 
 void Reception::on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&& frame) {
-  std::visit(Visitor{[&](const HelloFrame& hello) {
+  std::visit(Visitor{[&](HelloFrame& hello) {
                        if (hello.wants_answer) peer.answer = Peer::Answer{now, from, false};
                      },
-                     [&](const AckFrame& ack) { on_acknowledgement(now, peer, ack); },
-                     [](const PingFrame&) {},
-                     [&](const ParcelStateFrame& state) {
+                     [&](AckFrame& ack) { on_acknowledgement(now, peer, ack); },
+                     [](PingFrame&) {},
+                     [&](ParcelStateFrame& state) {
                        const auto finished = peer.outbox.on_state(now, state);
                        if (finished) node_.events.emplace_back(ParcelDelivered{peer.id, *finished});
                      },
