@@ -12,6 +12,8 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include "transport/udp/link_state.hpp"
+
 namespace warren::test {
 namespace {
 
