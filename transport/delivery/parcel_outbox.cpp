@@ -166,8 +166,7 @@ std::optional<ParcelKey> ParcelOutbox::on_state(MeshTime now, const ParcelStateF
 // list may go on beyond its end.
 void ParcelOutbox::drop_from_acked(Parcel& parcel, const ParcelStateFrame& state) {
   const bool full = state.have.size() == ParcelStateFrame::kRangesMax;
-  ByteRanges dropped;
-  for (const NumberRange& range : parcel.acked.ranges()) dropped.add(range);
+  ByteRanges dropped = parcel.acked;
   for (const NumberRange& range : state.have) dropped.remove(range);
   if (full) dropped.remove({state.have.back().end, parcel.bytes.size()});
   for (const NumberRange& range : dropped.ranges()) {
@@ -236,8 +235,7 @@ std::optional<std::uint32_t> ParcelOutbox::choose(ParcelClass priority) const {
   const Sendable& sendable = sendable_[static_cast<std::size_t>(priority)];
   look_at(sendable.begun);
   look_at(sendable.untouched);
-  if (!best) return std::nullopt;
-  return best->number;
+  return best ? std::optional(best->number) : std::nullopt;
 }
 
 // The receiver holds no more than its limit, and of the message class a parcel less.

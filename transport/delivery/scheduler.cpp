@@ -53,7 +53,16 @@ struct Scheduler::Filling {
   Inbox& inbox;
   const PullMap& pull;
   FilledPacket& packet;
+  // What the caller put in is not ours to limit: were it charged, a stream of acknowledgements
+  // could keep receipts from ever going.
+  std::size_t given_control = packet.class_bytes[index_of(SendClass::kControl)];
 
+  double bytes_of(SendClass send_class) const {
+    return static_cast<double>(packet.class_bytes[index_of(send_class)]);
+  }
+  double own_control() const {
+    return bytes_of(SendClass::kControl) - static_cast<double>(given_control);
+  }
   std::size_t left() const { return room > packet.bytes ? room - packet.bytes : 0; }
   bool add(std::optional<OutgoingFrame> frame, SendClass send_class) {
     if (!frame) return false;
@@ -87,11 +96,6 @@ void Scheduler::fill_urgent(const SendState& state, std::size_t room, Outbox& ou
   }
 }
 
-bool Scheduler::control_open(const SendState& state) {
-  refill(state);
-  return control_.open();
-}
-
 MeshTime Scheduler::next_due(const SendState& state, const Outbox& outbox, const Inbox& inbox) {
   refill(state);
   const double rate = rate_of(state);
@@ -120,17 +124,13 @@ void Scheduler::refill(const SendState& state) {
 
 // Each taking counts at once: a packet exceeds a cap by less than one frame.
 void Scheduler::fill_small(Filling& filling) {
-  const auto& bytes = filling.packet.class_bytes;
-  const auto taken = [&](SendClass send_class) {
-    return static_cast<double>(bytes[index_of(send_class)]);
-  };
   while (filling.add_next(SendClass::kUrgent)) {
   }
-  while (control_.tokens() > taken(SendClass::kControl)) {
+  while (control_.tokens() > filling.own_control()) {
     if (filling.add(filling.inbox.next_answer(filling.left()), SendClass::kControl)) continue;
     if (!filling.add_next(SendClass::kControl)) break;
   }
-  while (telemetry_.tokens() > taken(SendClass::kTelemetry)) {
+  while (telemetry_.tokens() > filling.bytes_of(SendClass::kTelemetry)) {
     if (!filling.add_next(SendClass::kTelemetry)) break;
   }
 }
@@ -175,17 +175,15 @@ bool Scheduler::fill_map(Filling& filling, MapClass wanted) {
 void Scheduler::account(const Filling& filling) {
   const FilledPacket& packet = filling.packet;
   if (packet.frames.empty()) return;
-  const auto bytes_of = [&](SendClass send_class) {
-    return static_cast<double>(packet.class_bytes[index_of(send_class)]);
-  };
+  const auto bytes_of = [&](SendClass send_class) { return filling.bytes_of(send_class); };
   const auto overhead = static_cast<double>(filling.state.overhead_bytes);
   const double whole = static_cast<double>(packet.bytes) + overhead;
   const double bulk = bytes_of(SendClass::kControlParcel) + bytes_of(SendClass::kMessageParcel) +
                       bytes_of(SendClass::kFresh) + bytes_of(SendClass::kBacklog);
   // Who is alone in a packet pays for what is around it.
   const bool telemetry_pays = bulk == 0.0 && bytes_of(SendClass::kTelemetry) > 0.0;
-  const bool control_pays = bulk == 0.0 && !telemetry_pays && bytes_of(SendClass::kControl) > 0.0;
-  control_.take(bytes_of(SendClass::kControl) + (control_pays ? overhead : 0.0));
+  const bool control_pays = bulk == 0.0 && !telemetry_pays && filling.own_control() > 0.0;
+  control_.take(filling.own_control() + (control_pays ? overhead : 0.0));
   telemetry_.take(bytes_of(SendClass::kTelemetry) + (telemetry_pays ? overhead : 0.0));
 
   const auto settle = [&](MapClass map_class, double share) {

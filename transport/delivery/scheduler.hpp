@@ -19,7 +19,7 @@ namespace warren {
 // Shares of the bytes sent to one peer. What parcels, fresh and backlog do not use goes to the
 // next; caps are never exceeded.
 struct SchedulerConfig {
-  double control_cap = 0.10;
+  double control_cap = 0.10;  // of what is said about parcels
   double telemetry_cap = 0.20;
   double fresh_share = 0.20;  // at least, when there is something
   double backlog_share = 0.10;
@@ -69,8 +69,6 @@ class Scheduler {
             const PullMap& pull, FilledPacket& packet);
   // Urgent messages only: for when the pacer has no room for more.
   void fill_urgent(const SendState& state, std::size_t room, Outbox& outbox, FilledPacket& packet);
-  // Whether the control class is within its share: acknowledgements may go in packets of their own.
-  bool control_open(const SendState& state);
   // The source has something again: until then a class that had nothing is not asked.
   void wake() { source_empty_ = {}; }
   // When fill() has something, the pacer aside, without anything else happening: the distant past

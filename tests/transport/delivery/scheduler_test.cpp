@@ -143,6 +143,15 @@ TEST_CASE_FIXTURE(SchedulerFixture, "answers and questions have their tenth at m
   CHECK(link_share(SendClass::kControl) > 0.09);
 }
 
+TEST_CASE_FIXTURE(SchedulerFixture, "many acknowledgements do not keep receipts from going") {
+  for (int i = 0; i < 500; ++i) {
+    (void)fill(300);
+    now += 1ms;
+  }
+  (void)inbox.on_frame(ParcelFrame{{5, 0}, ParcelClass::kMessage, 0, 10, 10, {}});
+  CHECK(fill(300).frames.size() == 2);
+}
+
 TEST_CASE_FIXTURE(SchedulerFixture,
                   "a packet takes urgent, answers, telemetry, parcels, then one "
                   "map packet that goes last") {
