@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/warren-bench/transport_cli.hpp"
+
 namespace warren {
 namespace {
 
@@ -231,6 +233,8 @@ Command parse_command_line(int argc, char** argv) {
   RawPipeline pipeline;
   RawTerrainQuality terrain_quality;
   RawWire wire;
+  TransportCommand transport;
+  TransportPeerOptions transport_peer;
   CLI::App* const integrate_app =
       app.add_subcommand("integrate", "scans into a map, beside OctoMap");
   CLI::App* const map_quality_app =
@@ -241,6 +245,9 @@ Command parse_command_line(int argc, char** argv) {
       "pipeline", "scans into a map with costs, beside PCL and OctoMap together");
   CLI::App* const terrain_quality_app = app.add_subcommand(
       "terrain-quality", "costs of the ground against what vehicles can do in simulated worlds");
+  CLI::App* const transport_app = app.add_subcommand(
+      "transport", "a payload over an emulated radio link, beside TCP, ENet and SRT");
+  CLI::App* const transport_peer_app = app.add_subcommand("transport-peer");
   CLI::App* const wire_app =
       app.add_subcommand("wire", "diff-maps into packets, beside other encodings and OctoMap");
   add_options(*integrate_app, integrate);
@@ -249,6 +256,8 @@ Command parse_command_line(int argc, char** argv) {
   add_options(*pipeline_app, pipeline);
   add_options(*terrain_quality_app, terrain_quality);
   add_options(*wire_app, wire);
+  add_options(*transport_app, transport);
+  add_options(*transport_peer_app, transport_peer);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -259,6 +268,8 @@ Command parse_command_line(int argc, char** argv) {
   if (pipeline_app->parsed()) return resolve(pipeline);
   if (terrain_quality_app->parsed()) return resolve(terrain_quality);
   if (wire_app->parsed()) return resolve(wire);
+  if (transport_app->parsed()) return transport;
+  if (transport_peer_app->parsed()) return transport_peer;
   return resolve(integrate);
 }
 

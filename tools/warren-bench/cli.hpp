@@ -8,6 +8,7 @@
 #include "tools/warren-bench/map_quality.hpp"
 #include "tools/warren-bench/pipeline_bench.hpp"
 #include "tools/warren-bench/terrain_quality.hpp"
+#include "tools/warren-bench/transport_bench.hpp"
 #include "tools/warren-bench/wire_bench.hpp"
 
 namespace warren {
@@ -43,12 +44,17 @@ struct WireCommand {
   std::optional<double> max_range_m;
   bool json = false;
 };
+struct TransportCommand {
+  TransportOptions options;
+  bool json = false;
+};
 struct ExitCommand {  // help was printed (0), or the line was wrong (2)
   int code = 0;
 };
 
 using Command = std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, PipelineCommand,
-                             TerrainQualityCommand, WireCommand, ExitCommand>;
+                             TerrainQualityCommand, TransportCommand, TransportPeerOptions,
+                             WireCommand, ExitCommand>;
 Command parse_command_line(int argc, char** argv);
 
 }  // namespace warren

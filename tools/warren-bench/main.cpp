@@ -73,6 +73,15 @@ int execute(const WireCommand& command) {
                             : to_text(*result));
 }
 
+int execute(const TransportCommand& command) {
+  const auto results = bench_transport(command.options);
+  if (!results) return fail(results.error());
+  return print(command.json ? to_json(*results, command.options) + "\n"
+                            : to_text(*results, command.options));
+}
+
+int execute(const TransportPeerOptions& options) { return run_transport_peer(options); }
+
 int execute(const ExitCommand& command) { return command.code; }
 
 }  // namespace
