@@ -17,6 +17,7 @@ void ArrivalRate::on_ack(MeshTime now, const AckFrame& ack, const AckReport& rep
   total_.arrived_us += static_cast<std::int32_t>(ack.pair_us - last_us_);
   last_bytes_ = ack.pair_bytes;
   last_us_ = ack.pair_us;
+  total_.acked_bytes = report.acked_bytes;
   total_.sent = report.pairs;
   total_.time = now;
   if (!marks_.empty() && now - marks_.back().time < kMarkSpacing) return;
@@ -52,6 +53,7 @@ std::optional<ArrivalRate::Measure> ArrivalRate::since(const Mark& from) const {
   measure.arrival_rate = sent_bytes * 1e6 / arrived_us * spacing / own;
   measure.busy = busy / spacing;
   measure.pairs = pairs;
+  measure.seconds = busy * 1e-6;
   measure.stretch = std::max((busy + queued_us) / busy, kStretchMin);
   const double busy_bytes = total_.sent.busy_bytes - from.sent.busy_bytes;
   measure.rate = busy_bytes * 1e6 / (busy_own * measure.stretch);

@@ -23,6 +23,7 @@ class ArrivalRate {
     double busy = 0.0;          // share of the time that the sender had no rest
     // Of the pairs between which it had none:
     double pairs = 0.0;
+    double seconds = 0.0;  // from sending to sending, in sum
     double rate = 0.0;     // IP bytes/s: the link's, or else the sender's pace
     double stretch = 1.0;  // arrival spacing / sending spacing: above 1 the link is too slow
   };
@@ -32,6 +33,7 @@ class ArrivalRate {
     MeshTime time;
     double arrived_bytes = 0.0;
     double arrived_us = 0.0;
+    double acked_bytes = 0.0;  // of all packets, paired or not
     AckReport::PairSums sent;
   };
 

@@ -12,9 +12,12 @@ using std::chrono::milliseconds;
 
 constexpr Duration kSilence = milliseconds{1500};  // without progress, beyond round trips
 constexpr Duration kQuiet = milliseconds{100};
-constexpr double kQuietShare = 0.75;                  // of the rate, while it is quiet
-constexpr Duration kProbePeriod = milliseconds{100};  // one packet, while silent
-constexpr double kRepeatShare = 0.04;                 // of the bytes sent for the first time
+constexpr double kQuietShare = 0.75;  // of the rate, while it is quiet
+constexpr double kProbeShare = 0.25;  // of the rate, while silent
+constexpr Duration kProbeMin = milliseconds{20};
+constexpr Duration kProbeMax = milliseconds{200};
+constexpr Duration kProbeSoon = std::chrono::seconds{4};  // of silence: then less often
+constexpr double kRepeatShare = 0.04;                     // of the bytes sent for the first time
 constexpr double kRepeatBytesMax = 6'000.0;
 
 }  // namespace
@@ -60,7 +63,7 @@ Flow::Outcome Flow::on_ack(MeshTime now, const AckFrame& ack) {
 }
 
 void Flow::on_heard(MeshTime now) {
-  if (silent_) last_probe_ = now - kProbePeriod;
+  if (silent_) last_probe_ = now - kProbeMax;
 }
 
 Flow::Outcome Flow::on_time(MeshTime now) {
@@ -92,9 +95,15 @@ MeshTime Flow::silence_time() const {
   return waiting ? last_progress_ + kSilence + 2 * trip : kNever;
 }
 
+Duration Flow::probe_period() const {
+  if (!rate_.known() || last_probe_ > last_progress_ + kProbeSoon) return kProbeMax;
+  const double us = static_cast<double>(packet_bytes()) * 1e6 / (kProbeShare * rate_.rate());
+  return std::clamp(Duration{std::llround(us)}, kProbeMin, kProbeMax);
+}
+
 MeshTime Flow::next_time() const {
   MeshTime next = std::min({sent_.loss_time(), received_.due_at(), silence_time()});
-  const MeshTime may_send_at = silent_ ? last_probe_ + kProbePeriod : rate_.paused_until();
+  const MeshTime may_send_at = silent_ ? last_probe_ + probe_period() : rate_.paused_until();
   if (may_send_at > last_sent_) next = std::min(next, may_send_at);
   return next;
 }
@@ -108,7 +117,7 @@ std::size_t Flow::in_flight_max(MeshTime now) const {
 
 bool Flow::may_send(MeshTime now) const {
   if (!sent_.room()) return false;
-  if (silent_) return now >= last_probe_ + kProbePeriod;
+  if (silent_) return now >= last_probe_ + probe_period();
   if (now < rate_.paused_until()) return false;
   return sent_.bytes_in_flight() + packet_bytes() <= in_flight_max(now);
 }

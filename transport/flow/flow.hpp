@@ -77,6 +77,7 @@ class Flow {
 
  private:
   MeshTime silence_time() const;
+  Duration probe_period() const;
   std::size_t in_flight_max(MeshTime now) const;
 
   ReceivedPackets received_;

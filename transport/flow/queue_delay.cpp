@@ -12,7 +12,8 @@ using std::chrono::seconds;
 
 constexpr Duration kHalfWindow = seconds{10};
 constexpr Duration kStandingSpan = milliseconds{60};
-constexpr std::size_t kStandingSamples = 3;  // at least
+constexpr std::size_t kStandingSamples = 2;  // at least
+constexpr Duration kIntervalMax = milliseconds{300};
 constexpr Duration kContradiction = milliseconds{30};
 constexpr int kStepSamples = 6;
 constexpr Duration kEmpty = milliseconds{3};
@@ -74,20 +75,22 @@ void QueueDelay::on_sample(MeshTime now, const AckReport::Largest& sample, doubl
 }
 
 void QueueDelay::update_standing(MeshTime now, Duration queue) {
+  if (count_ > 0) {
+    const Sample& before = samples_[(count_ - 1) % kSamples];
+    const Duration moved = queue > before.queue ? queue - before.queue : before.queue - queue;
+    jitter_ = (15 * jitter_ + moved) / 16;
+    interval_ = (7 * interval_ + std::min(now - before.time, kIntervalMax)) / 8;
+  }
   samples_[count_++ % kSamples] = {now, queue};
   if (queue <= kEmpty) last_empty_ = now;
   const std::size_t kept = std::min(count_, kSamples);
-  Duration least = queue, sum{0};
-  std::size_t used = 0;
-  for (; used < kept; ++used) {
+  Duration least = queue;
+  for (std::size_t used = 0; used < kept; ++used) {
     const Sample& sample = samples_[(count_ - 1 - used) % kSamples];
     if (used >= kStandingSamples && now - sample.time > kStandingSpan + 6 * jitter_) break;
     least = std::min(least, sample.queue);
-    sum += sample.queue;
   }
   standing_ = least;
-  const Duration scatter = sum / static_cast<std::int64_t>(used) - least;
-  jitter_ = (15 * jitter_ + scatter) / 16;
 }
 
 std::optional<Duration> QueueDelay::least_rtt() const {

@@ -21,8 +21,9 @@ class QueueDelay {
 
   // The least of the latest samples: what stands, without jitter. Zero if nothing is known.
   Duration standing() const { return standing_; }
-  // How much samples scatter above that.
+  // How much samples differ from one to the next, and their time apart.
   Duration jitter() const { return jitter_; }
+  Duration interval() const { return interval_; }
   std::optional<Duration> least_rtt() const;
   // When a sample last found (nearly) no queue.
   MeshTime last_empty() const { return last_empty_; }
@@ -58,6 +59,7 @@ class QueueDelay {
   std::size_t count_ = 0;
   Duration standing_{};
   Duration jitter_{};
+  Duration interval_{};
   MeshTime last_empty_{};
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace warren {
 namespace {
@@ -21,23 +22,27 @@ constexpr Duration kPacketAirtime = milliseconds{75};
 
 constexpr Duration kTargetFloor = milliseconds{8};
 constexpr Duration kTargetSlope = milliseconds{14};  // at 1 Mbit/s; falls with the root of the rate
-constexpr Duration kTargetMax = milliseconds{80};
+constexpr Duration kTargetMax = milliseconds{45};
 constexpr double kTargetRate = 125'000.0;
 constexpr Duration kInFlightQueue = milliseconds{150};
-constexpr std::size_t kInFlightPackets = 3;
+constexpr std::size_t kInFlightPackets = 2;
 
 constexpr double kBusy = 0.7;  // of the time: less says little of the link
 constexpr double kFirstCaution = 0.8;
 constexpr double kGainSecond = 1.25;  // after a first flight that the link stretched
 constexpr double kGainFirst = 1.06;
+constexpr double kGainGrowth = 4.0;  // of what is above 1
 constexpr double kGainMax = 2.0;
 constexpr double kRaiseMax = 0.06;  // of the pace, while the queue is below its target
 constexpr double kLowerMax = 0.5;
 constexpr double kCertainty = 2.0;  // a probe's effect over the jitter
+constexpr double kCertain = 0.03;   // of a rate: taken as it is
 constexpr double kFallMax = 0.05;   // for one probe that failed
 constexpr int kPlateauRounds = 6;
-constexpr double kRoundPairs = 6.0;
+constexpr double kRoundPairs = 4.0;
+constexpr double kGiveUpPackets = 20.0;  // arrived without a pair
 constexpr Duration kFollowSpan = milliseconds{200};
+constexpr Duration kJoinAfter = seconds{2};
 constexpr Duration kEmptyPeriod = seconds{8};
 
 double s(Duration duration) { return static_cast<double>(duration.count()) * 1e-6; }
@@ -54,6 +59,7 @@ void RateController::on_ack(MeshTime now, const AckFrame& ack, const AckReport& 
                             std::uint64_t next) {
   arrivals_.on_ack(now, ack, report);
   if (report.largest) queue_.on_sample(now, *report.largest, confirmed_rate_);
+  loss_ = report.loss;
   if (starting_) start_bytes_ = report.acked_bytes;
   if (!known_) return judge_first_flight(report, next);
   fall_fast(now, next);
@@ -67,12 +73,12 @@ void RateController::fall_fast(MeshTime now, std::uint64_t next) {
   const bool searching = gain_ > 1.0 || starting_;
   const Duration limit = searching ? 2 * target() : target() + milliseconds{40};
   if (queue_.standing() < limit + queue_.jitter()) return;
-  const auto seen = arrivals_.since(now - milliseconds{30}, 4.0);
+  const auto seen = arrivals_.since(now - milliseconds{30} - 10 * queue_.jitter(), 4.0);
   if (!seen) return;
   const double seen_rate = seen->busy > kBusy ? seen->arrival_rate : seen->rate;
   if (searching)
     set_rate(std::min(seen_rate, rate_ * gain_));
-  else if (seen_rate < 0.85 * rate_)
+  else if (seen_rate < 0.93 * rate_)
     set_rate(seen_rate);
   if (searching) {
     gain_ = 1.0;
@@ -92,9 +98,10 @@ void RateController::follow_arrivals(MeshTime now) {
     return;
   }
   const Duration span = std::max({round_trip(), kFollowSpan, 20 * queue_.jitter()});
-  const auto seen = arrivals_.since(std::max(now - span, queued_since_), 12.0, queued_since_);
+  const auto seen = arrivals_.since(std::max(now - span, queued_since_), 8.0, queued_since_);
   if (!seen || seen->busy < kBusy) return;
-  const double share = std::clamp(s(now - last_followed_) / 0.1, 0.0, 1.0);
+  const double certain = std::min(1.0, kCertain / uncertainty(*seen));
+  const double share = std::clamp(s(now - last_followed_) / 0.1, 0.0, 1.0) * certain * certain;
   set_rate(rate_ + (seen->arrival_rate - rate_) * share);
   confirmed_rate_ = rate_;
   last_followed_ = now;
@@ -133,8 +140,22 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
   const Duration span = std::max({round_trip() / 4, certain, Duration{milliseconds{10}}});
   if (now - round_.from->time < span) return;
   const auto seen = arrivals_.since(*round_.from);
-  if (!seen || seen->pairs < kRoundPairs) return;
+  if (!seen || seen->pairs < kRoundPairs) return give_up_round(now, next);
   end_round(*seen);
+  begin_round(next);
+}
+
+// At twice the link's rate a short buffer drops every second packet: none is left that arrived
+// next to its neighbour.
+void RateController::give_up_round(MeshTime now, std::uint64_t next) {
+  const double seconds = s(now - round_.from->time);
+  const double delivered = arrivals_.mark().acked_bytes - round_.from->acked_bytes;
+  const bool enough = delivered > kGiveUpPackets * static_cast<double>(packet_bytes());
+  if (!enough || seconds < s(round_trip())) return;
+  set_rate(std::clamp(1.1 * delivered / seconds, 0.7 * rate_, rate_));
+  gain_ = 1.0;
+  starting_ = false;
+  patience_ = kPlateauRounds;
   begin_round(next);
 }
 
@@ -149,12 +170,16 @@ void RateController::end_round(const ArrivalRate::Measure& seen) {
     return;
   }
   const double passed = 1.0 / seen.stretch;  // of the pace
-  const double needed = 1.0 - std::max(0.03, 0.4 * (gain_ - 1.0) / gain_);
+  const double full = 1.0 / gain_;           // what passes if the link is full already
+  const double doubt = uncertainty(seen);
+  const double needed =
+      std::max(1.0 - std::max(0.03, 0.4 * (1.0 - full)) - 0.7 * doubt, full + 0.25 * (1.0 - full));
   if (passed >= needed) {
     set_rate(std::max(rate_, rate_ * gain_ * std::min(passed, 1.0)));
-    gain_ = std::min(kGainMax, std::max(kGainFirst, 1.0 + 2.0 * (gain_ - 1.0)));
+    gain_ = std::min(kGainMax, std::max(kGainFirst, 1.0 + kGainGrowth * (gain_ - 1.0)));
   } else {
-    set_rate(std::clamp(seen.rate, rate_ * (1.0 - kFallMax), rate_ * gain_));
+    const double fall = kFallMax * std::clamp(kCertain / doubt, 0.3, 1.0);
+    set_rate(std::clamp(seen.rate, rate_ * (1.0 - fall), rate_ * gain_));
     gain_ = 1.0;
     starting_ = false;
     patience_ = kPlateauRounds;
@@ -164,10 +189,14 @@ void RateController::end_round(const ArrivalRate::Measure& seen) {
 // The base of the delay is only seen while the queue is empty; and a neighbour's flow that never
 // saw it empty takes ours for a part of its base.
 void RateController::empty_queue_sometimes(MeshTime now) {
-  if (starting_ || !queue_shows()) return;
-  if (now - std::max(queue_.last_empty(), last_pause_) < kEmptyPeriod) return;
+  const Duration full = queue_.last_empty() - std::exchange(last_empty_, queue_.last_empty());
+  if (starting_) return;
+  // Somebody else has just emptied it: joining in gets to the bottom.
+  const bool join = full > kJoinAfter && now - last_pause_ > kJoinAfter;
+  if (!join && !queue_shows()) return;
+  if (!join && now - std::max(queue_.last_empty(), last_pause_) < kEmptyPeriod) return;
   last_pause_ = now;
-  paused_until_ = now + queue_.standing() + target() / 2;
+  paused_until_ = now + 2 * std::max(queue_.standing(), target() / 2) + target() / 2;
 }
 
 void RateController::on_silence() {
@@ -201,10 +230,17 @@ bool RateController::queue_shows() const {
   return queue_.standing() >= target() / 4 + queue_.jitter() / 2;
 }
 
+// What jitter does to a measure of arrival spacing: each run of packets without a loss within is
+// wrong by that of its first and its last.
+double RateController::uncertainty(const ArrivalRate::Measure& seen) const {
+  const double runs = 1.0 + seen.pairs * loss_;
+  return std::max(1.25 * s(queue_.jitter()) * std::sqrt(runs) / std::max(seen.seconds, 1e-3), 1e-6);
+}
+
 double RateController::pace() const {
   double pace = rate_ * gain_;
   if (!starting_ && gain_ <= 1.0) {
-    const double reaction = std::max(0.3, 2.5 * s(round_trip()));
+    const double reaction = std::max(0.3, 2.5 * s(round_trip() + 2 * queue_.interval()));
     const double room = s(target() - queue_.standing()) / reaction;
     pace = rate_ * (1.0 + std::clamp(room, -kLowerMax, kRaiseMax));
   }

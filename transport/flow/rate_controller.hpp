@@ -51,6 +51,7 @@ class RateController {
 
   void judge_first_flight(const AckReport& report, std::uint64_t next);
   void begin_round(std::uint64_t next);
+  void give_up_round(MeshTime now, std::uint64_t next);
   void end_round(const ArrivalRate::Measure& seen);
   void watch_round(MeshTime now, const AckReport& report, std::uint64_t next);
   void follow_arrivals(MeshTime now);
@@ -59,6 +60,7 @@ class RateController {
   void set_rate(double rate);
   Duration target() const;
   bool queue_shows() const;
+  double uncertainty(const ArrivalRate::Measure& seen) const;
   Duration round_trip() const;
 
   Config config_;
@@ -69,13 +71,15 @@ class RateController {
   double confirmed_rate_ = 0.0;  // measured while a queue stood
   bool known_ = false;           // rate_ was measured
   bool starting_ = true;
-  double gain_;               // above 1: looks for more
+  double gain_;  // above 1: looks for more
+  double loss_ = 0.0;
   double start_bytes_ = 0.0;  // acknowledged while starting
   int patience_ = 0;          // rounds until it looks for more again
   MeshTime queued_since_{};
   MeshTime last_followed_{};
   MeshTime paused_until_{};
   MeshTime last_pause_{};
+  MeshTime last_empty_{};
 };
 
 }  // namespace warren

@@ -14,12 +14,13 @@ constexpr double kAckShare = 0.025;        // of the bytes that arrive
 constexpr std::size_t kPacketsPerAck = 2;  // at least
 constexpr Duration kDelayMin = milliseconds{2};
 constexpr Duration kDelayMax = milliseconds{25};      // for one packet alone
-constexpr Duration kIntervalMax = milliseconds{240};  // between two, on the slowest links
+constexpr Duration kIntervalMax = milliseconds{160};  // between two, on the slowest links
 constexpr Duration kRest = milliseconds{500};         // after which
 constexpr int kQuickPackets = 16;                     // are acknowledged at once
 constexpr Duration kRepeatDelay = milliseconds{40};
 constexpr Duration kPairGapMax = std::chrono::seconds{1};
 constexpr int kTellTimes = 6;                 // a range, since its last change
+constexpr int kOlderRanges = 5;               // besides, as many acknowledgements may be lost
 constexpr std::uint32_t kWholeAckPeriod = 8;  // between acknowledgements with all ranges
 constexpr double kLossGain = 1.0 / 64.0;
 constexpr std::uint64_t kLossStep = 64;  // packets that one gap may count for
@@ -119,8 +120,10 @@ std::optional<AckFrame> ReceivedPackets::take_ack(MeshTime now) {
   if (ranges_.empty()) return {};
   AckFrame ack;
   const bool whole = acks_++ % kWholeAckPeriod == 0;
+  int older = 0;
   for (Range& range : ranges_) {
-    if (range.told < kTellTimes || whole || ack.ranges.empty()) ack.ranges.push_back(range);
+    const bool news = range.told < kTellTimes || ack.ranges.empty();
+    if (news || whole || older++ < kOlderRanges) ack.ranges.push_back(range);
     range.told = std::min(range.told + 1, kTellTimes);
   }
   const Arrival* largest = arrival(ranges_.front().end - 1);

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 constexpr std::uint64_t kPacketThreshold = 3;  // RFC 9002, 6.1.1
 constexpr Duration kReorderingMax = milliseconds{300};
 constexpr Duration kSilenceMin = milliseconds{80};  // delayed and lost acknowledgements
-constexpr Duration kSilenceMax = seconds{1};
+constexpr Duration kSilenceMax = seconds{2};
 constexpr Duration kAlone = milliseconds{100};     // nothing was sent for so long
 constexpr Duration kFirstRtt = milliseconds{700};  // before one was measured
 constexpr Duration kDecayPeriod = seconds{1};
@@ -68,6 +68,7 @@ SentPackets::Settled SentPackets::on_ack(MeshTime now, const AckFrame& ack) {
   forget_settled(now);
   settled.report.pairs = pairs_;
   settled.report.acked_bytes = acked_bytes_;
+  settled.report.loss = loss_;
   settled.report.end = *largest_acked_ + 1;
   return settled;
 }

@@ -37,6 +37,7 @@ struct AckReport {
   std::optional<Largest> largest;
   PairSums pairs;
   double acked_bytes = 0.0;     // IP bytes, from the first packet on
+  double loss = 0.0;            // share of packets, lately
   std::size_t newly_acked = 0;  // packets, late ones included
   std::size_t newly_lost = 0;
   std::uint64_t end = 0;  // one more than the largest number acknowledged so far
