@@ -128,7 +128,10 @@ void Ledger::on_urgent(MeshTime now, std::uint32_t at, std::uint32_t at_life,
 void Ledger::on_map(MeshTime now, std::uint32_t at, std::span<const std::uint8_t> bytes) {
   const auto stamp = read_stamped(bytes);
   if (!stamp) return fail(now, "a map packet arrived that nobody sent");
-  if (++map_arrived_[{stamp->from, stamp->number}] > 1) fail(now, "a map packet arrived twice");
+  ++map_arrived_[{stamp->from, stamp->number}];
+  if (++map_arrived_at_[{at, stamp->from, stamp->number}] > 1) {
+    fail(now, "a map packet arrived twice");
+  }
   ++map_counts_[{at, static_cast<MapClass>(stamp->kind)}];
 }
 

@@ -77,6 +77,7 @@ class Ledger {
       telemetry_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint64_t>, int> urgent_;
   std::map<std::pair<std::uint32_t, std::uint64_t>, int> map_arrived_;  // from, ticket
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>, int> map_arrived_at_;
   std::map<std::pair<std::uint32_t, MapClass>, std::size_t> map_counts_;
   std::unordered_map<std::uint64_t, std::uint64_t> datagrams_;  // digests: of name, of bytes
   std::size_t outstanding_ = 0;

@@ -68,6 +68,7 @@ void Simulation::start(std::size_t index) {
   config.self = {node.id};
   config.boot = {random.next()};
   config.random_seed = random.next();
+  config.members_max = config_.members_max;
   for (std::size_t k = 0; k < networks_.size(); ++k) {
     config.interfaces.push_back(config_.interface);
     if (!config_.seeds_instead_of_group) continue;
@@ -148,6 +149,15 @@ void Simulation::add_map(std::size_t from, std::size_t to, MapClass priority, st
   SimNode& node = nodes_[from];
   node.source->add({nodes_[to].id}, priority, bytes);
   if (node.endpoint) node.endpoint->wake(local(node), {nodes_[to].id});
+  changed_[from] = true;
+}
+
+void Simulation::add_group(std::size_t from, std::uint64_t bytes) {
+  SimNode& node = nodes_[from];
+  node.source->add_group(bytes);
+  for (std::size_t k = 0; node.endpoint && k < networks_.size(); ++k) {
+    node.endpoint->wake_group(local(node), static_cast<InterfaceIndex>(k));
+  }
   changed_[from] = true;
 }
 

@@ -55,6 +55,7 @@ class Simulation {
     std::uint64_t seed = 1;
     InterfaceConfig interface;            // of every node; with `seeds` empty
     bool seeds_instead_of_group = false;  // the network carries no group packets
+    std::size_t members_max = 256;
     std::size_t memory_max = 40'000'000;
     Planted planted = Planted::kNone;
   };
@@ -86,6 +87,7 @@ class Simulation {
   void send_urgent(std::size_t from, std::optional<std::size_t> to);
   void set_telemetry(std::size_t from, std::uint16_t key, std::size_t bytes = 100);
   void add_map(std::size_t from, std::size_t to, MapClass priority, std::uint64_t bytes);
+  void add_group(std::size_t from, std::uint64_t bytes);  // on all interfaces
   // Sends bytes as if from this address: recorded or forged packets.
   void inject(std::size_t to, std::size_t interface, const MeshAddress& from,
               std::vector<std::uint8_t> bytes);

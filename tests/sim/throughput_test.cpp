@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 
 struct Target {
-  const char* name;
+  std::string name;
   RadioLink radio;
   std::size_t bytes;
   double efficiency;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/sim/scenario.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace warren::sim {
+namespace {
+
+// A thousand in all, in parts that ctest runs side by side. WARREN_SIM_SEED=N runs that one alone.
+constexpr std::uint64_t kSeedsPerPart = 250;
+
+void run(std::uint64_t seed) {
+  const ScenarioOutcome outcome = run_scenario(seed);
+  if (outcome.failures.empty()) return;
+  std::string report = "WARREN_SIM_SEED=" + std::to_string(seed) + ": " + outcome.story;
+  for (const std::string& failure : outcome.failures) report += "\n  " + failure;
+  FAIL_CHECK(report);
+}
+
+void run_part(std::uint64_t part) {
+  if (const char* seed = std::getenv("WARREN_SIM_SEED")) {
+    if (part == 0) run(std::strtoull(seed, nullptr, 10));
+    return;
+  }
+  for (std::uint64_t i = 1; i <= kSeedsPerPart; ++i) run(part * kSeedsPerPart + i);
+}
+
+TEST_CASE("what was promised is kept through all troubles, part 1") { run_part(0); }
+TEST_CASE("what was promised is kept through all troubles, part 2") { run_part(1); }
+TEST_CASE("what was promised is kept through all troubles, part 3") { run_part(2); }
+TEST_CASE("what was promised is kept through all troubles, part 4") { run_part(3); }
+
+TEST_CASE("the same seed gives the same run") {
+  for (const std::uint64_t seed : {3U, 14U, 15U}) {
+    CHECK(run_scenario(seed).seconds == run_scenario(seed).seconds);
+  }
+}
+
+TEST_CASE("planted faults are found") {
+  const auto found = [](Planted planted, const char* words) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      for (const std::string& failure : run_scenario(seed, planted).failures) {
+        if (failure.find(words) != std::string::npos) return true;
+      }
+    }
+    return false;
+  };
+  CHECK(found(Planted::kParcelTwice, "arrived twice"));
+  CHECK(found(Planted::kFragmentLost, "never done"));
+  CHECK(found(Planted::kNonceReused, "a nonce was used twice"));
+  CHECK(found(Planted::kTelemetryStale, "telemetry went back"));
+  CHECK(found(Planted::kLeak, "bytes"));
+  CHECK(found(Planted::kStarved, "never done"));
+}
+
+}  // namespace
+}  // namespace warren::sim
