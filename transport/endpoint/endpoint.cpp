@@ -157,10 +157,10 @@ std::vector<std::uint8_t> Endpoint::save() const {
 
 bool Endpoint::restore(std::span<const std::uint8_t> saved) {
   auto peers = read_saved_parcels(saved);
-  if (!peers) return false;
+  if (!peers || peers->size() > state_->node.config.members_max) return false;
   for (SavedPeer& from : *peers) {
     Peer* peer = state_->node.find_or_add(from.member);
-    if (peer == nullptr) return false;
+    assert(peer != nullptr);  // nothing was there before
     peer->outbox.restore(std::move(from.outgoing));
     peer->inbox.restore(from.incoming);
   }

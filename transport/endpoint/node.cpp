@@ -24,7 +24,8 @@ Node::Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule>
     : config(node_config),
       keys(std::move(key_schedule)),
       source(map_source),
-      jitter(node_config.random_seed),
+      // Two lives with the same seed must not draw the same numbers of streams.
+      jitter(Jitter(node_config.random_seed ^ node_config.boot.bits).bits()),
       sent_budget(node_config.parcels_bytes_max / 2),
       received_budget(node_config.parcels_bytes_max / 2),
       members(node_config.members_max) {

@@ -66,9 +66,10 @@ void add_size_probe(Draft& draft, const Node& node, MeshTime now, Peer& peer) {
   }
 }
 
-void add_repeat(Draft& draft, MeshTime now, Peer& peer) {
-  if (!peer.repeat) return;
-  for (const Ticket& ticket : *std::exchange(peer.repeat, std::nullopt)) {
+void add_repeat(Draft& draft, Peer& peer) {
+  const auto repeat = std::exchange(peer.repeat, std::nullopt);
+  if (!repeat) return;
+  for (const Ticket& ticket : *repeat) {
     auto again = peer.outbox.again(ticket, draft.room - draft.packet.bytes);
     if (!again) continue;
     draft.packet.bytes += encoded_bytes(again->frame);
@@ -76,7 +77,6 @@ void add_repeat(Draft& draft, MeshTime now, Peer& peer) {
     draft.packet.tickets.push_back(again->ticket);
     draft.repeat = true;
   }
-  (void)now;
 }
 
 PullMap pull_for(Node& node, const Peer& peer) {
@@ -142,7 +142,7 @@ std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, Packe
   add_size_probe(draft, node, now, peer);
   peer.scheduler.fill(state, draft.room, peer.outbox, peer.inbox, pull_for(node, peer),
                       draft.packet);
-  if (draft.packet.tickets.empty()) add_repeat(draft, now, peer);
+  if (draft.packet.tickets.empty()) add_repeat(draft, peer);
   return send(node, now, peer, draft);
 }
 

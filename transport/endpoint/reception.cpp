@@ -156,8 +156,7 @@ void Reception::on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&&
   std::visit(Visitor{[&](HelloFrame& hello) {
                        if (hello.wants_answer) peer.answer = Peer::Answer{now, from, false};
                      },
-                     [&](AckFrame& ack) { on_acknowledgement(now, peer, ack); },
-                     [](PingFrame&) {},
+                     [&](AckFrame& ack) { on_acknowledgement(now, peer, ack); }, [](PingFrame&) {},
                      [&](ParcelStateFrame& state) {
                        const auto finished = peer.outbox.on_state(now, state);
                        if (finished) node_.events.emplace_back(ParcelDelivered{peer.id, *finished});
