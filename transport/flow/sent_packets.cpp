@@ -120,7 +120,9 @@ void SentPackets::lose(Record& record, Settled& settled) {
   --packets_in_flight_;
   ++settled.report.newly_lost;
   measure_loss(true);
-  move_all(record.packet.tickets, settled.lost);
+  // Kept too: it may only be late.
+  settled.lost.insert(settled.lost.end(), record.packet.tickets.begin(),
+                      record.packet.tickets.end());
 }
 
 void SentPackets::lose_overtaken(Settled& settled) {
