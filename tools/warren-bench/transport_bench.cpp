@@ -57,6 +57,8 @@ TransportRun median_of(const std::vector<TransportRun>& runs) {
   middle.efficiency = median_by(runs, [](Run run) { return run.efficiency; });
   middle.oversend = median_by(runs, [](Run run) { return run.oversend; });
   middle.back_share = median_by(runs, [](Run run) { return run.back_share; });
+  middle.sender_cpu = median_by(runs, [](Run run) { return run.sender_cpu; });
+  middle.receiver_cpu = median_by(runs, [](Run run) { return run.receiver_cpu; });
   for (Run run : runs) {
     middle.link_late_ms_max = std::max(middle.link_late_ms_max, run.link_late_ms_max);
   }

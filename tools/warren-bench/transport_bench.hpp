@@ -42,7 +42,9 @@ struct TransportRun {
   double oversend = 0.0;    // IP bytes sent / (payload bytes arrived / (1 - p))
   double back_share = 0.0;  // IP bytes sent the other way / payload bytes arrived
   std::optional<double> first_byte_s;  // after the blackout's end, or after the start
-  double link_late_ms_max = 0.0;       // of the emulator: how far it can be trusted
+  double sender_cpu = 0.0;  // of one core, user and system; TCP's is partly the kernel's own
+  double receiver_cpu = 0.0;
+  double link_late_ms_max = 0.0;  // of the emulator: how far it can be trusted
 };
 
 struct TransportResult {

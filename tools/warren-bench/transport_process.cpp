@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,8 +41,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words) {
 }
 
 ChildProcess::~ChildProcess() {
-  if (pid_ > 0) kill(pid_, SIGKILL);
-  wait();
+  kill();
   close(input_);
   close(output_);
 }
@@ -74,9 +74,19 @@ void ChildProcess::write_line(const std::string& line) {
   (void)!write(input_, text.data(), text.size());
 }
 
-void ChildProcess::wait() {
-  if (pid_ > 0) waitpid(pid_, nullptr, 0);
+std::chrono::microseconds ChildProcess::wait() {
+  rusage used{};
+  if (pid_ > 0) wait4(pid_, nullptr, 0, &used);
   pid_ = -1;
+  const auto time = [](const timeval& value) {
+    return std::chrono::seconds(value.tv_sec) + std::chrono::microseconds(value.tv_usec);
+  };
+  return time(used.ru_utime) + time(used.ru_stime);
+}
+
+std::chrono::microseconds ChildProcess::kill() {
+  if (pid_ > 0) ::kill(pid_, SIGKILL);
+  return wait();
 }
 
 }  // namespace warren

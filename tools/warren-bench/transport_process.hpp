@@ -23,8 +23,9 @@ class ChildProcess {
   std::optional<std::string> read_line(std::chrono::steady_clock::time_point until);
   bool has_ended() const { return ended_; }
   void write_line(const std::string& line);
-  // Waits until it ends by itself.
-  void wait();
+  // Waits until it ends by itself. The CPU time that it took, user and system.
+  std::chrono::microseconds wait();
+  std::chrono::microseconds kill();
 
  private:
   pid_t pid_ = -1;

@@ -20,6 +20,8 @@ Json json_of(const TransportResult& result) {
             {"oversend", run.oversend},
             {"first_byte_s", number_or_null(run.first_byte_s)},
             {"back_share", run.back_share},
+            {"sender_cpu", run.sender_cpu},
+            {"receiver_cpu", run.receiver_cpu},
             {"link_late_ms_max", run.link_late_ms_max},
             {"efficiency_of_runs", Json::array()}};
   for (const TransportRun& one : result.runs) json["efficiency_of_runs"].push_back(one.efficiency);

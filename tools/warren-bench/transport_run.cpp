@@ -38,6 +38,8 @@ struct Story {
   std::optional<Time> start;
   std::vector<Arrival> arrivals;
   std::optional<Time> blackout_end;
+  std::chrono::microseconds sender_cpu{};
+  std::chrono::microseconds receiver_cpu{};
   std::string problem;
   bool available = true;
 
@@ -160,6 +162,8 @@ TransportRun judge(const TransportOptions& options, const Story& story,
     run.seconds = took_s;
   }
   const double arriving_bytes_s = options.rate_bit_s / 8.0 * (1.0 - options.loss);
+  run.sender_cpu = seconds(story.sender_cpu) / took_s;
+  run.receiver_cpu = seconds(story.receiver_cpu) / took_s;
   const double usable_s = took_s - (story.blackout_end ? options.blackout_s : 0.0);
   run.efficiency = bytes / (arriving_bytes_s * usable_s);
   if (bytes > 0.0) {
@@ -198,6 +202,8 @@ TransportRun run_transport(const TransportOptions& options, const std::string& p
     ChildProcess sender(peer_command(options, peer, true, names[0], programs));
     follow(options, link, sender, receiver, story);
     link.write_line("stats");
+    story.sender_cpu = sender.kill();
+    story.receiver_cpu = receiver.kill();
   }
   const auto stats = link.read_line(Clock::now() + kStartPatience);
   link.write_line("quit");
