@@ -15,7 +15,7 @@ namespace warren {
 
 // How fast to send to one peer. Loss is not congestion; delay that grows is. While a small queue
 // stands in the link, the spacing of arrivals is the link's rate; while none does, the rate is
-// raised as long as arrivals follow. Why so: docs/adr/0001-rate-control.md.
+// raised as long as arrivals follow. Why so: docs/adr/0002-rate-control.md.
 class RateController {
  public:
   struct Config {
