@@ -18,6 +18,7 @@ void ArrivalRate::on_ack(MeshTime now, const AckFrame& ack, const AckReport& rep
   last_bytes_ = ack.pair_bytes;
   last_us_ = ack.pair_us;
   total_.acked_bytes = report.acked_bytes;
+  total_.busy_acked_bytes = report.busy_acked_bytes;
   total_.sent = report.pairs;
   total_.time = now;
   if (!marks_.empty() && now - marks_.back().time < kMarkSpacing) return;

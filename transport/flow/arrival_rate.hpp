@@ -34,11 +34,12 @@ class ArrivalRate {
     double arrived_bytes = 0.0;
     double arrived_us = 0.0;
     double acked_bytes = 0.0;  // of all packets, paired or not
+    double busy_acked_bytes = 0.0;
     AckReport::PairSums sent;
   };
 
   void on_ack(MeshTime now, const AckFrame& ack, const AckReport& report);
-  Mark mark() const { return total_; }
+  const Mark& mark() const { return total_; }
   // Of what was acknowledged since then: nothing if no two consecutive packets were.
   std::optional<Measure> since(const Mark& from) const;
   // Of what was acknowledged since a time, or for longer if that was fewer than so many pairs, but

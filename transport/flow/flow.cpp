@@ -10,10 +10,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Duration kSilence = milliseconds{1500};  // without progress, beyond round trips
+constexpr Duration kSilence = milliseconds{2000};  // without progress, beyond round trips
 constexpr Duration kQuiet = milliseconds{100};
-constexpr double kQuietShare = 0.75;  // of the rate, while it is quiet
-constexpr double kProbeShare = 0.25;  // of the rate, while silent
+constexpr double kQuietShare = 1.0;  // of the rate, while it is quiet
+constexpr double kProbeShare = 0.5;  // of the rate, while silent
 constexpr Duration kProbeMin = milliseconds{20};
 constexpr Duration kProbeMax = milliseconds{200};
 constexpr Duration kProbeSoon = std::chrono::seconds{4};  // of silence: then less often
@@ -67,6 +67,7 @@ void Flow::on_heard(MeshTime now) {
 }
 
 Flow::Outcome Flow::on_time(MeshTime now) {
+  last_time_ = now;
   SentPackets::Settled settled = sent_.on_time(now);
   if (!silent_ && now >= silence_time()) {
     silent_ = true;
@@ -91,7 +92,7 @@ void Flow::on_path_changed(MeshTime now) {
 MeshTime Flow::silence_time() const {
   if (silent_ || last_progress_ == kNever) return kNever;
   const Duration trip = sent_.smoothed_rtt().value_or(milliseconds{400});
-  const bool waiting = sent_.packets_in_flight() > 0 || last_sent_ > last_progress_;
+  const bool waiting = sent_.packets_in_flight() > 0 || last_probe_ > last_progress_;
   return waiting ? last_progress_ + kSilence + 2 * trip : kNever;
 }
 
@@ -104,7 +105,7 @@ Duration Flow::probe_period() const {
 MeshTime Flow::next_time() const {
   MeshTime next = std::min({sent_.loss_time(), received_.due_at(), silence_time()});
   const MeshTime may_send_at = silent_ ? last_probe_ + probe_period() : rate_.paused_until();
-  if (may_send_at > last_sent_) next = std::min(next, may_send_at);
+  if (may_send_at > last_time_) next = std::min(next, may_send_at);
   return next;
 }
 

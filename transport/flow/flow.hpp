@@ -84,6 +84,7 @@ class Flow {
   SentPackets sent_;
   RateController rate_;
   std::uint64_t next_number_ = 0;
+  MeshTime last_time_{};  // told by on_time()
   MeshTime last_sent_{};
   MeshTime last_progress_{};  // an acknowledgement came, or the first packet went out
   MeshTime last_probe_{};

@@ -40,6 +40,7 @@ constexpr double kCertain = 0.03;   // of a rate: taken as it is
 constexpr double kFallMax = 0.05;   // for one probe that failed
 constexpr int kPlateauRounds = 6;
 constexpr double kRoundPairs = 4.0;
+constexpr Duration kRoundMax = seconds{1};
 constexpr double kGiveUpPackets = 20.0;  // arrived without a pair
 constexpr Duration kFollowSpan = milliseconds{200};
 constexpr Duration kJoinAfter = seconds{2};
@@ -139,6 +140,13 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
   const Duration certain = from_s(kCertainty * s(queue_.jitter()) / excess);
   const Duration span = std::max({round_trip() / 4, certain, Duration{milliseconds{10}}});
   if (now - round_.from->time < span) return;
+  const ArrivalRate::Mark& here = arrivals_.mark();
+  const double busy = here.busy_acked_bytes - round_.from->busy_acked_bytes;
+  if (busy < kBusy * (here.acked_bytes - round_.from->acked_bytes)) {
+    // Too little was sent to learn from; what is sent from now on may do.
+    if (now - round_.from->time > kRoundMax) begin_round(next);
+    return;
+  }
   const auto seen = arrivals_.since(*round_.from);
   if (!seen || seen->pairs < kRoundPairs) return give_up_round(now, next);
   end_round(*seen);
@@ -150,6 +158,7 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
 void RateController::give_up_round(MeshTime now, std::uint64_t next) {
   const double seconds = s(now - round_.from->time);
   const double delivered = arrivals_.mark().acked_bytes - round_.from->acked_bytes;
+
   const bool enough = delivered > kGiveUpPackets * static_cast<double>(packet_bytes());
   if (!enough || seconds < s(round_trip())) return;
   set_rate(std::clamp(1.1 * delivered / seconds, 0.7 * rate_, rate_));

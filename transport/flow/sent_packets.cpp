@@ -68,6 +68,7 @@ SentPackets::Settled SentPackets::on_ack(MeshTime now, const AckFrame& ack) {
   forget_settled(now);
   settled.report.pairs = pairs_;
   settled.report.acked_bytes = acked_bytes_;
+  settled.report.busy_acked_bytes = busy_acked_bytes_;
   settled.report.loss = loss_;
   settled.report.end = *largest_acked_ + 1;
   return settled;
@@ -90,6 +91,7 @@ void SentPackets::acknowledge(MeshTime now, std::uint64_t number, Settled& settl
   if (record.packet.wants_ack) measure_loss(false);
   record.fate = Fate::kAcked;
   acked_bytes_ += static_cast<double>(record.packet.ip_bytes);
+  if (record.packet.busy) busy_acked_bytes_ += static_cast<double>(record.packet.ip_bytes);
   ++settled.report.newly_acked;
   move_all(record.packet.tickets, settled.acked);
   add_pairs(number);

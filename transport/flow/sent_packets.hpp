@@ -36,9 +36,10 @@ struct AckReport {
   };
   std::optional<Largest> largest;
   PairSums pairs;
-  double acked_bytes = 0.0;     // IP bytes, from the first packet on
-  double loss = 0.0;            // share of packets, lately
-  std::size_t newly_acked = 0;  // packets, late ones included
+  double busy_acked_bytes = 0.0;  // of those that the sender had no rest before
+  double acked_bytes = 0.0;       // IP bytes, from the first packet on
+  double loss = 0.0;              // share of packets, lately
+  std::size_t newly_acked = 0;    // packets, late ones included
   std::size_t newly_lost = 0;
   std::uint64_t end = 0;  // one more than the largest number acknowledged so far
 };
@@ -117,6 +118,7 @@ class SentPackets {
   std::size_t packets_in_flight_ = 0;
   AckReport::PairSums pairs_;
   double acked_bytes_ = 0.0;
+  double busy_acked_bytes_ = 0.0;
 
   std::optional<Duration> smoothed_rtt_;
   Duration rtt_variation_{};

@@ -60,6 +60,35 @@ TEST_CASE("in silence only single packets go out; what is heard brings one at on
   CHECK(flow.may_send(now + milliseconds{200}));
 }
 
+TEST_CASE("who only receives and acknowledges is not silent, and has no deadline behind it") {
+  Flow flow({});
+  std::uint64_t sent = 0;
+  MeshTime now{seconds{1}};
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    now += milliseconds{10};
+    flow.on_received(now, {i, 1000, true});
+    flow.on_time(now);
+    CHECK(flow.next_time() > now - milliseconds{30});
+    if (flow.ack_due(now)) {
+      REQUIRE(flow.take_ack(now));
+      flow.on_sent(now, {.number = sent++, .ip_bytes = 80, .tickets = {}});
+    }
+  }
+  for (int i = 0; i < 5; ++i) {
+    REQUIRE(flow.may_send(now));
+    flow.on_sent(now, packet(sent++));
+  }
+}
+
+TEST_CASE("in silence no deadline lies in the past") {
+  Flow flow({});
+  flow.on_sent(MeshTime{seconds{1}}, packet(0));
+  flow.on_time(MeshTime{seconds{20}});
+  flow.on_heard(MeshTime{seconds{21}});
+  flow.on_time(MeshTime{seconds{21}});
+  CHECK(flow.next_time() > MeshTime{seconds{21}});
+}
+
 TEST_CASE("the quality of the link is told") {
   TransferConfig config;
   config.there.loss = 0.1;

@@ -9,6 +9,7 @@ namespace warren {
 namespace {
 
 constexpr std::size_t kAckPacketBytes = 28 + 32 + 20;
+constexpr Duration kLookAgain{100};
 constexpr std::size_t kRangeBytes = 4;
 
 }  // namespace
@@ -55,14 +56,15 @@ MeshTime Transfer::next_event() const {
   for (const Side& side : sides_) {
     next = std::min({next, side.sender->next_time(), side.receiver->next_time()});
     if (!started(side)) next = std::min(next, MeshTime{side.load.start});
-    if (may_offer(side)) next = std::min(next, std::max(side.pacer.ready_at(), now_ + Duration{1}));
+    if (may_offer(side)) next = std::min(next, std::max(side.pacer.ready_at(), now_ + kLookAgain));
   }
   return std::max(next, now_ + Duration{1});
 }
 
 std::size_t Transfer::available(const Side& side) const {
-  if (side.load.app_bit_s <= 0.0) return side.bytes_left;
-  const double seconds = static_cast<double>((now_ - MeshTime{side.load.start}).count()) * 1e-6;
+  const MeshTime slow_from{side.load.start + side.load.slow_from};
+  if (side.load.app_bit_s <= 0.0 || now_ < slow_from) return side.bytes_left;
+  const double seconds = static_cast<double>((now_ - slow_from).count()) * 1e-6;
   const double ready = seconds * side.load.app_bit_s / 8.0 - side.bytes_offered;
   return std::min(side.bytes_left, static_cast<std::size_t>(std::max(ready, 0.0)));
 }
@@ -95,7 +97,9 @@ bool Transfer::send_one(std::size_t flow, Side& side) {
   if (side.load.app_bit_s > 0.0 ? ready >= room : ready > 0) {
     const std::size_t bytes = std::min(ready, room);
     side.bytes_left -= bytes;
-    side.bytes_offered += static_cast<double>(bytes);
+    if (now_ >= MeshTime{side.load.start + side.load.slow_from}) {
+      side.bytes_offered += static_cast<double>(bytes);
+    }
     side.under_way.emplace(side.next_chunk, bytes);
     side.arrived.push_back(false);
     transmit(flow, side, side.next_chunk++, bytes, false);

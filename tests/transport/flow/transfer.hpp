@@ -23,6 +23,7 @@ struct TransferConfig {
     Duration start{};
     std::size_t app_bytes = 0;
     double app_bit_s = 0.0;  // offered not faster than this; 0: all at once
+    Duration slow_from{};    // since then, after the start
   };
   std::vector<Load> flows = {{}};
   // What the receivers' clocks show more than ours from this time on.
