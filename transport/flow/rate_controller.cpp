@@ -158,7 +158,6 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
 void RateController::give_up_round(MeshTime now, std::uint64_t next) {
   const double seconds = s(now - round_.from->time);
   const double delivered = arrivals_.mark().acked_bytes - round_.from->acked_bytes;
-
   const bool enough = delivered > kGiveUpPackets * static_cast<double>(packet_bytes());
   if (!enough || seconds < s(round_trip())) return;
   set_rate(std::clamp(1.1 * delivered / seconds, 0.7 * rate_, rate_));
