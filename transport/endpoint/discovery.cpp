@@ -71,7 +71,7 @@ Peer* Discovery::on_session_beacon(MeshTime now, Peer& peer, const Beacon& beaco
   if (!up) greet(now, beacon);
   // The address of a beacon proves nothing: the answer to this does.
   if ((!up || peer.paths.take_probe(now, from)) && !peer.answer) {
-    peer.answer = Peer::Answer{now + answer_delay(now), from, true};
+    peer.answer = Peer::Answer{now + answer_delay(now), from, true, Peer::kAskTries};
   }
   return &peer;
 }

@@ -64,7 +64,11 @@ void Node::begin_session(MeshTime now, Peer& peer, BootId boot) {
     rate.packet_bytes_max = std::max(rate.packet_bytes_max, interface.mtu_bytes);
   }
   members.begin_session(peer, Session{SessionKeys(*keys, config.boot, boot, free_pair_number),
-                                      Flow(rate), now, false, std::nullopt});
+                                      Flow(rate),
+                                      now,
+                                      false,
+                                      {},
+                                      std::nullopt});
 }
 
 void Node::settle(MeshTime now, Peer& peer, const Flow::Outcome& outcome) {
@@ -99,6 +103,7 @@ void Node::note_liveness(MeshTime now, Peer& peer) {
 
 void Node::note_moved(MeshTime now, Peer& peer) {
   peer.session->flow.on_path_changed(now);
+  peer.session->sizes = {};
   events.emplace_back(MemberMoved{peer.id, *peer.paths.current()});
 }
 

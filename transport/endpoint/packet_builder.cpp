@@ -14,6 +14,7 @@ struct Draft {
   std::size_t room = 0;  // of the content
   FilledPacket packet;
   bool repeat = false;
+  bool goes_again = false;  // an answer with tries left
 };
 
 bool answer_is_due(MeshTime now, const Peer& peer) { return peer.answer && peer.answer->at <= now; }
@@ -37,7 +38,13 @@ void add_hello(Draft& draft, MeshTime now, const Node& node, Peer& peer) {
   const bool answers = answer_is_due(now, peer);
   if (!answers && peer.session->knows_us) return;
   add_control(draft, HelloFrame{node.config.self, answers && peer.answer->wants_answer});
-  if (answers) peer.answer.reset();
+  if (!answers) return;
+  if (--peer.answer->tries > 0) {
+    peer.answer->at = now + Peer::kTryAgain;
+    draft.goes_again = true;
+  } else {
+    peer.answer.reset();
+  }
 }
 
 void add_acknowledgement(Draft& draft, MeshTime now, Flow& flow) {
@@ -45,25 +52,25 @@ void add_acknowledgement(Draft& draft, MeshTime now, Flow& flow) {
   if (auto ack = flow.take_ack(now)) add_control(draft, *std::move(ack));
 }
 
-// Makes the packet as large as the path is said to carry, or just a small one that asks whether
-// it passes.
-void add_size_probe(Draft& draft, const Node& node, MeshTime now, Peer& peer) {
+// A packet as large as the path is said to carry, or a small one, to see whether it passes. True:
+// nothing else belongs into it.
+bool add_size_probe(Draft& draft, const Node& node, MeshTime now, Peer& peer) {
   PacketSize& size = peer.paths.size();
-  const std::size_t mtu = node.config.interfaces[draft.to.interface].mtu_bytes;
   if (size.wants_large_probe(now)) {
     size.on_large_probe(now);
-    draft.room = room_of(node, draft.to.interface, mtu);
+    draft.room =
+        room_of(node, draft.to.interface, node.config.interfaces[draft.to.interface].mtu_bytes);
     PingFrame ping;
     while (draft.packet.bytes + encoded_bytes(ping) < draft.room) {
       const std::size_t missing = draft.room - draft.packet.bytes - encoded_bytes(ping);
-      ping.padding = static_cast<std::uint16_t>(ping.padding + std::max<std::size_t>(missing, 1));
+      ping.padding = static_cast<std::uint16_t>(ping.padding + missing);
     }
-    if (draft.packet.bytes + encoded_bytes(ping) > draft.room) --ping.padding;
-    add_control(draft, ping);
-  } else if (size.wants_small_probe()) {
-    size.on_small_probe();
-    add_control(draft, PingFrame{});
+    while (draft.packet.bytes + encoded_bytes(ping) > draft.room) --ping.padding;
+    return add_control(draft, ping);
   }
+  if (!size.wants_small_probe()) return false;
+  size.on_small_probe();
+  return add_control(draft, PingFrame{});
 }
 
 void add_repeat(Draft& draft, Peer& peer) {
@@ -103,6 +110,8 @@ std::optional<Datagram> send(Node& node, MeshTime now, Peer& peer, Draft& draft)
   const std::size_t ip_bytes = node.ip_bytes(draft.to.interface, datagram.bytes.size());
   const bool backlogged =
       node.pacers[draft.to.interface].on_sent(now, peer.id.number, ip_bytes, session.flow.pace());
+  if (draft.goes_again && !draft.packet.tickets.empty()) peer.repeat = draft.packet.tickets;
+  session.sizes.on_sent(now, number, ip_bytes);
   session.flow.on_sent(now, {number, ip_bytes, wants_ack, backlogged, draft.repeat,
                              std::move(draft.packet.tickets)});
   if (wants_ack && !session.awaiting_since) session.awaiting_since = now;
@@ -139,7 +148,7 @@ std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, Packe
     peer.scheduler.fill_urgent(state, draft.room, peer.outbox, draft.packet);
     return send(node, now, peer, draft);
   }
-  add_size_probe(draft, node, now, peer);
+  if (add_size_probe(draft, node, now, peer)) return send(node, now, peer, draft);
   peer.scheduler.fill(state, draft.room, peer.outbox, peer.inbox, pull_for(node, peer),
                       draft.packet);
   if (draft.packet.tickets.empty()) add_repeat(draft, peer);

@@ -11,6 +11,7 @@
 #include "transport/endpoint/liveness.hpp"
 #include "transport/endpoint/peer_paths.hpp"
 #include "transport/endpoint/session_keys.hpp"
+#include "transport/endpoint/size_witness.hpp"
 #include "transport/flow/flow.hpp"
 #include "transport/mesh_address.hpp"
 #include "transport/mesh_id.hpp"
@@ -23,6 +24,7 @@ struct Session {
   Flow flow;
   MeshTime since;
   bool knows_us = false;  // it has our hello
+  SizeWitness sizes;      // of packets on the current path
   // The first packet that wanted an acknowledgement since the peer was heard.
   std::optional<MeshTime> awaiting_since;
 };
@@ -35,7 +37,12 @@ struct Peer {
     MeshTime at;
     MeshPath path;
     bool wants_answer = false;
+    int tries = 1;  // left; any sign that it was heard ends them
   };
+  // Who asks, asks several times: a beacon that was heard is too good to be lost for a packet.
+  static constexpr int kAskTries = 4;
+  static constexpr int kReplyTries = 2;
+  static constexpr Duration kTryAgain = std::chrono::milliseconds(100);
 
   Peer(MemberId member, const DeliveryConfig& delivery, std::uint64_t fresh_stream,
        const TelemetryBoard& board, ParcelBudget& sent, ParcelBudget& received,
@@ -53,7 +60,7 @@ struct Peer {
   PeerPaths paths;
   std::optional<Session> session;
   std::optional<Answer> answer;
-  std::optional<std::vector<Ticket>> repeat;  // what an idle slot sends once more
+  std::optional<std::vector<Ticket>> repeat;  // what goes once more if nothing else does
   // Where it stands in the endpoint's order.
   MeshTime deadline = kNever;
   bool prompt = false;                    // has something that does not wait for its turn

@@ -26,12 +26,12 @@ const HelloFrame* hello_in(const std::vector<Frame>& frames) {
   return nullptr;
 }
 
-template <typename Outcome>
-void note_sizes(MeshTime now, PacketSize& size, const Outcome& outcome) {
-  if constexpr (requires { outcome.acked_ip_bytes; }) {
-    for (const std::uint32_t bytes : outcome.acked_ip_bytes) size.on_passed(bytes);
-    for (const std::uint32_t bytes : outcome.lost_ip_bytes) size.on_lost(now, bytes);
-  }
+// Whoever acknowledges us, or no longer asks, has heard us.
+bool shows_we_are_heard(const std::vector<Frame>& frames) {
+  const HelloFrame* hello = hello_in(frames);
+  if (hello != nullptr) return !hello->wants_answer;
+  return std::any_of(frames.begin(), frames.end(),
+                     [](const Frame& frame) { return std::holds_alternative<AckFrame>(frame); });
 }
 
 }  // namespace
@@ -117,6 +117,7 @@ Peer* Reception::on_pair_packet(MeshTime now, const PacketHeader& header, const 
   }
   peer->liveness.on_pair_packet(now);
   node_.note_liveness(now, *peer);
+  if (shows_we_are_heard(*frames)) peer->answer.reset();
   for (Frame& frame : *frames) on_frame(now, *peer, from, std::move(frame));
   relieve_memory();
   return peer;
@@ -148,13 +149,14 @@ void Reception::on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack
   const auto outcome = peer.session->flow.on_ack(now, ack);
   // Every packet before this acknowledgement had our hello.
   peer.session->knows_us = true;
-  note_sizes(now, peer.paths.size(), outcome);
+  peer.session->sizes.on_ack(now, ack, peer.paths.size());
   node_.settle(now, peer, outcome);
 }
 
 void Reception::on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&& frame) {
   std::visit(Visitor{[&](HelloFrame& hello) {
-                       if (hello.wants_answer) peer.answer = Peer::Answer{now, from, false};
+                       if (hello.wants_answer)
+                         peer.answer = Peer::Answer{now, from, false, Peer::kReplyTries};
                      },
                      [&](AckFrame& ack) { on_acknowledgement(now, peer, ack); }, [](PingFrame&) {},
                      [&](ParcelStateFrame& state) {

@@ -11,8 +11,7 @@ namespace {
 // The pacer's name for packets that go to all. No member has it.
 constexpr NodePacer::Peer kGroupTurn = UINT32_MAX;
 // What is due and cannot be helped now is looked at again after this.
-constexpr Duration kLookAgain = std::chrono::milliseconds(1);
-constexpr Duration kLookAgainInSilence = std::chrono::milliseconds(100);
+constexpr Duration kLookAgain = std::chrono::milliseconds(25);
 
 }  // namespace
 
@@ -76,11 +75,13 @@ bool Transmission::wants_turn(MeshTime now, Peer& peer) {
   return peer.repeat.has_value();
 }
 
-MeshTime Transmission::deadline_of(MeshTime now, Peer& peer) {
+MeshTime Transmission::deadline_of(MeshTime now, Peer& peer, bool serviced) {
   MeshTime deadline = peer.liveness.next();
   if (peer.answer) deadline = std::min(deadline, peer.answer->at);
   if (!peer.session) return deadline;
-  deadline = std::min(deadline, peer.session->flow.next_time());
+  // What its flow wanted in the past has been done, or cannot be done now.
+  const MeshTime flow = peer.session->flow.next_time();
+  deadline = std::min(deadline, serviced && flow <= now ? now + kLookAgain : flow);
   if (!peer.in_reach(now)) return deadline;
   deadline = std::min(deadline, peer.outbox.next_due(SendClass::kUrgent));
   const MeshTime due =
@@ -88,7 +89,7 @@ MeshTime Transmission::deadline_of(MeshTime now, Peer& peer) {
   return due > now ? std::min(deadline, due) : deadline;
 }
 
-void Transmission::refresh(MeshTime now, Peer& peer) {
+void Transmission::refresh(MeshTime now, Peer& peer, bool serviced) {
   const bool in_reach = peer.in_reach(now);
   const bool answers = peer.session && peer.answer && peer.answer->at <= now;
   set_prompt(peer, answers || (in_reach && (peer.session->flow.ack_due(now) ||
@@ -98,7 +99,7 @@ void Transmission::refresh(MeshTime now, Peer& peer) {
   } else {
     set_turn(peer, std::nullopt);
   }
-  set_deadline(peer, deadline_of(now, peer));
+  set_deadline(peer, deadline_of(now, peer, serviced));
 }
 
 void Transmission::service(MeshTime now, Peer& peer) {
@@ -106,13 +107,14 @@ void Transmission::service(MeshTime now, Peer& peer) {
     node_.settle(now, peer, peer.session->flow.on_time(now));
     const LinkQuality quality = peer.session->flow.quality(now);
     peer.paths.note_quality(quality.loss_out, quality.rtt.value_or(Duration{}));
+    if (peer.paths.current()) {
+      peer.session->sizes.on_time(now, quality.rtt.value_or(Duration{}), peer.paths.size());
+    }
     if (peer.paths.choose(now)) node_.note_moved(now, peer);
   }
   node_.note_liveness(now, peer);
-  refresh(now, peer);
-  if (peer.deadline <= now) {
-    set_deadline(peer, now + (peer.in_reach(now) ? kLookAgain : kLookAgainInSilence));
-  }
+  refresh(now, peer, true);
+  if (peer.deadline <= now) set_deadline(peer, now + kLookAgain);
 }
 
 std::optional<Datagram> Transmission::poll(MeshTime now) {

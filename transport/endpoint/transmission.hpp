@@ -19,7 +19,7 @@ class Transmission {
   explicit Transmission(Node& node);
 
   // Something about the peer has changed.
-  void refresh(MeshTime now, Peer& peer);
+  void refresh(MeshTime now, Peer& peer, bool serviced = false);
   void wake_group(InterfaceIndex interface);
 
   std::optional<Datagram> poll(MeshTime now);
@@ -30,7 +30,7 @@ class Transmission {
   void set_deadline(Peer& peer, MeshTime deadline);
   void set_prompt(Peer& peer, bool prompt);
   void set_turn(Peer& peer, std::optional<InterfaceIndex> interface);
-  MeshTime deadline_of(MeshTime now, Peer& peer);
+  MeshTime deadline_of(MeshTime now, Peer& peer, bool serviced);
   bool wants_turn(MeshTime now, Peer& peer);
   std::optional<Datagram> poll_prompt(MeshTime now);
   std::optional<Datagram> poll_turn(MeshTime now, InterfaceIndex interface);
