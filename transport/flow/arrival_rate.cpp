@@ -13,12 +13,17 @@ double us(Duration duration) { return static_cast<double>(duration.count()); }
 }  // namespace
 
 void ArrivalRate::on_ack(MeshTime now, const AckFrame& ack, const AckReport& report) {
-  total_.arrived_bytes += ack.pair_bytes - last_bytes_;
-  total_.arrived_us += static_cast<std::int32_t>(ack.pair_us - last_us_);
-  last_bytes_ = ack.pair_bytes;
-  last_us_ = ack.pair_us;
+  // An older acknowledgement that comes late says nothing new of the sums.
+  const auto more_bytes = static_cast<std::int32_t>(ack.pair_bytes - last_bytes_);
+  if (more_bytes > 0) {
+    total_.arrived_bytes += more_bytes;
+    total_.arrived_us += static_cast<std::int32_t>(ack.pair_us - last_us_);
+    last_bytes_ = ack.pair_bytes;
+    last_us_ = ack.pair_us;
+  }
   total_.acked_bytes = report.acked_bytes;
   total_.busy_acked_bytes = report.busy_acked_bytes;
+  if (report.pairs.pauses != total_.sent.pauses) marks_.clear();
   total_.sent = report.pairs;
   total_.time = now;
   if (!marks_.empty() && now - marks_.back().time < kMarkSpacing) return;
@@ -38,6 +43,7 @@ std::optional<ArrivalRate::Measure> ArrivalRate::since(MeshTime time, double pai
 }
 
 std::optional<ArrivalRate::Measure> ArrivalRate::since(const Mark& from) const {
+  if (from.sent.pauses != total_.sent.pauses) return {};
   const double pairs = total_.sent.busy_pairs - from.sent.busy_pairs;
   const double sent_bytes = total_.sent.ip_bytes - from.sent.ip_bytes;
   const double arrived_bytes = total_.arrived_bytes - from.arrived_bytes;

@@ -14,7 +14,8 @@ namespace warren {
 
 // The rate at which consecutive packets arrive, beside that at which they were sent. Packets lost
 // between others count for neither, so the figure is right at any random loss, and a queue that
-// overflows does not inflate it. Pauses of the sender do not lower it.
+// overflows does not inflate it. Pauses of the sender do not lower it; nothing is measured across
+// long ones, because the two sides need not agree on which pair spans them.
 class ArrivalRate {
  public:
   struct Measure {

@@ -19,6 +19,7 @@ constexpr Duration kProbeMax = milliseconds{200};
 constexpr Duration kProbeSoon = std::chrono::seconds{4};  // of silence: then less often
 constexpr double kRepeatShare = 0.04;                     // of the bytes sent for the first time
 constexpr double kRepeatBytesMax = 6'000.0;
+constexpr std::size_t kAtOnceBytes = 64'000;  // beyond what may be in flight
 
 }  // namespace
 
@@ -104,9 +105,20 @@ Duration Flow::probe_period() const {
 
 MeshTime Flow::next_time() const {
   MeshTime next = std::min({sent_.loss_time(), received_.due_at(), silence_time()});
-  const MeshTime may_send_at = silent_ ? last_probe_ + probe_period() : rate_.paused_until();
+  const MeshTime may_send_at =
+      silent_ ? last_probe_ + probe_period() : std::max(rate_.paused_until(), room_time());
   if (may_send_at > last_time_) next = std::min(next, may_send_at);
   return next;
+}
+
+// When in_flight_max() will have grown to what may_send() asks for, if no acknowledgement comes.
+MeshTime Flow::room_time() const {
+  const std::size_t wanted = sent_.bytes_in_flight() + packet_bytes();
+  const std::size_t most = rate_.in_flight_max();
+  if (wanted <= most) return MeshTime::min();
+  if (!rate_.known()) return kNever;
+  const double more_s = static_cast<double>(wanted - most + 1) / (kQuietShare * rate_.rate());
+  return last_progress_ + kQuiet + Duration{std::llround(std::ceil(more_s * 1e6))};
 }
 
 // When acknowledgements stay away altogether, rather than come slowly, they are lost: it goes on.
@@ -121,6 +133,10 @@ bool Flow::may_send(MeshTime now) const {
   if (silent_) return now >= last_probe_ + probe_period();
   if (now < rate_.paused_until()) return false;
   return sent_.bytes_in_flight() + packet_bytes() <= in_flight_max(now);
+}
+
+bool Flow::may_send_at_once(MeshTime now) const {
+  return sent_.bytes_in_flight() <= in_flight_max(now) + kAtOnceBytes;
 }
 
 LinkQuality Flow::quality(MeshTime) const {

@@ -56,9 +56,12 @@ class Flow {
   // When on_time() has something to do, or an acknowledgement is due, or may_send() may turn true.
   MeshTime next_time() const;
 
-  // Room in flight for a packet that wants an acknowledgement. What is urgent or carries only an
-  // acknowledgement need not ask.
+  // Room in flight for a packet that wants an acknowledgement. What carries only an acknowledgement
+  // need not ask.
   bool may_send(MeshTime now) const;
+  // The same for what does not wait its turn, answers and urgent messages: false only if much more
+  // than may_send() allows is in flight already.
+  bool may_send_at_once(MeshTime now) const;
   bool ack_due(MeshTime now) const { return received_.due(now); }
   bool ack_pending() const { return received_.pending(); }
   std::optional<AckFrame> take_ack(MeshTime now) { return received_.take_ack(now); }
@@ -79,6 +82,7 @@ class Flow {
   MeshTime silence_time() const;
   Duration probe_period() const;
   std::size_t in_flight_max(MeshTime now) const;
+  MeshTime room_time() const;
 
   ReceivedPackets received_;
   SentPackets sent_;

@@ -8,6 +8,8 @@ namespace warren {
 namespace {
 
 constexpr Duration kBurst = std::chrono::milliseconds{2};
+// What did not wait for its turn delays the others no longer than this.
+constexpr Duration kAheadMax = std::chrono::milliseconds{250};
 
 Duration airtime(std::size_t ip_bytes, double rate) {
   return Duration{std::llround(static_cast<double>(ip_bytes) * 1e6 / std::max(rate, 1.0))};
@@ -50,7 +52,8 @@ bool NodePacer::on_sent(MeshTime now, std::optional<Peer> peer, std::size_t ip_b
   // After a rest, or when woken late: two packets at once, or 2 ms of them.
   const Duration allowance = std::max(kBurst, needed);
   const bool backlogged = now - ready_at_ <= allowance;
-  ready_at_ = std::max(ready_at_, now - allowance) + needed;
+  ready_at_ =
+      std::min(std::max(ready_at_, now - allowance) + needed, now + std::max(kAheadMax, needed));
   if (peer) charge(*peer, needed);
   return backlogged;
 }

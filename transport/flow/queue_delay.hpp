@@ -53,7 +53,6 @@ class QueueDelay {
   std::int64_t one_way_us_ = 0;
   LeastOfWindow one_way_, round_trip_;
   MeshTime window_start_{};
-  double peak_rate_ = 0.0;
   int steps_ = 0;  // samples in a row whose delay one way contradicts the round trip
   std::array<Sample, kSamples> samples_{};
   std::size_t count_ = 0;

@@ -62,11 +62,19 @@ void RateController::on_ack(MeshTime now, const AckFrame& ack, const AckReport& 
   if (report.largest) queue_.on_sample(now, *report.largest, confirmed_rate_);
   loss_ = report.loss;
   if (starting_) start_bytes_ = report.acked_bytes;
+  skip_pauses(report);
   if (!known_) return judge_first_flight(report, next);
   fall_fast(now, next);
   follow_arrivals(now);
   watch_round(now, report, next);
   empty_queue_sometimes(now);
+}
+
+// What is measured begins after them.
+void RateController::skip_pauses(const AckReport& report) {
+  if (!round_.from || round_.from->sent.pauses == arrivals_.mark().sent.pauses) return;
+  round_.from = arrivals_.mark();
+  round_.first = report.end;
 }
 
 // A queue well above the target: the link became slower, or the search for more went too far.

@@ -26,7 +26,7 @@ class RateController {
 
   explicit RateController(const Config& config);
 
-  // next: the number of the next packet to send. in_flight: IP bytes, after it.
+  // next: the number of the next packet to send.
   void on_ack(MeshTime now, const AckFrame& ack, const AckReport& report, std::uint64_t next);
   // After a silence the old rate is taken up with care.
   void on_silence();
@@ -49,6 +49,7 @@ class RateController {
     bool queued = false;                    // a queue showed
   };
 
+  void skip_pauses(const AckReport& report);
   void judge_first_flight(const AckReport& report, std::uint64_t next);
   void begin_round(std::uint64_t next);
   void give_up_round(MeshTime now, std::uint64_t next);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 namespace warren {
@@ -20,6 +21,11 @@ constexpr Duration kFirstRtt = milliseconds{700};  // before one was measured
 constexpr Duration kDecayPeriod = seconds{1};
 constexpr Duration kRememberLost = seconds{4};        // to notice that it was only late
 constexpr Duration kHeldTooLong = milliseconds{500};  // such a delay is no good for a round trip
+// Nobody waits for longer: a round trip above is held for this, whatever the peer says.
+constexpr Duration kRttMax = seconds{5};
+constexpr Duration kTripMax = seconds{8};  // with its variation
+constexpr Duration kPause = milliseconds{400};
+constexpr Duration kPairGapMax = seconds{1};  // as the receiver's
 constexpr double kLossGain = 1.0 / 64.0;
 
 void move_all(std::vector<Ticket>& from, std::vector<Ticket>& to) {
@@ -31,12 +37,23 @@ void move_all(std::vector<Ticket>& from, std::vector<Ticket>& to) {
 
 void SentPackets::on_sent(std::uint64_t number, Packet packet) {
   if (packets_.empty()) first_ = undecided_ = number;
-  assert(number == end() && room());
+  assert(number == end());
+  if (!room()) forget_oldest(packet.sent);
   if (packet.wants_ack) {
     bytes_in_flight_ += packet.ip_bytes;
     ++packets_in_flight_;
   }
   packets_.push_back({.packet = std::move(packet)});
+}
+
+// It was sent before what the peer acknowledges, or it acknowledges nothing: too late for a record.
+void SentPackets::forget_oldest(MeshTime now) {
+  Settled settled;
+  if (packets_.front().fate == Fate::kInFlight) lose(packets_.front(), settled);
+  if (!settled.lost.empty() && forgotten_.empty()) forgotten_since_ = now;
+  move_all(settled.lost, forgotten_);
+  packets_.pop_front();
+  undecided_ = std::max(undecided_, ++first_);
 }
 
 SentPackets::Record* SentPackets::find(std::uint64_t number) {
@@ -51,10 +68,8 @@ SentPackets::Settled SentPackets::on_ack(MeshTime now, const AckFrame& ack) {
     largest_acked_ = largest;
     if (const Record* record = find(largest)) {
       AckReport::Largest news{record->packet.sent, ack.arrived_us, record->packet.ip_bytes, {}};
-      if (ack.delay < kHeldTooLong) {
-        news.rtt = std::max(now - record->packet.sent - ack.delay, Duration{1});
-        measure_rtt(*news.rtt);
-      }
+      news.rtt = rtt_sample(now, record->packet, ack.delay);
+      if (news.rtt) measure_rtt(*news.rtt);
       settled.report.largest = news;
     }
   }
@@ -101,13 +116,18 @@ void SentPackets::add_pairs(std::uint64_t number) {
   const auto add = [this](const Record* first, const Record* second) {
     if (first == nullptr || second == nullptr) return;
     if (first->fate != Fate::kAcked || second->fate != Fate::kAcked) return;
+    const Duration spacing = second->packet.sent - first->packet.sent;
+    if (spacing > kPairGapMax || (spacing > kPause && !second->packet.busy)) {
+      ++pairs_.pauses;
+      return;
+    }
     pairs_.ip_bytes += static_cast<double>(second->packet.ip_bytes);
-    pairs_.spacing += second->packet.sent - first->packet.sent;
+    pairs_.spacing += spacing;
     pairs_.own += second->packet.own;
     if (!second->packet.busy) return;
     pairs_.busy_pairs += 1.0;
     pairs_.busy_bytes += static_cast<double>(second->packet.ip_bytes);
-    pairs_.busy += second->packet.sent - first->packet.sent;
+    pairs_.busy += spacing;
     pairs_.busy_own += second->packet.own;
   };
   const Record* record = find(number);
@@ -144,7 +164,7 @@ void SentPackets::lose_overtaken(Settled& settled) {
 // no hurry: either the acknowledgements are lost, or one will soon say what arrived.
 MeshTime SentPackets::loss_time(const Packet& packet) const {
   if (!smoothed_rtt_) return packet.sent + kFirstRtt;
-  const Duration trip = *smoothed_rtt_ + 4 * rtt_variation_;
+  const Duration trip = std::min(*smoothed_rtt_ + 4 * rtt_variation_, Duration{kTripMax});
   const MeshTime alone = packets_.back().packet.sent + kAlone;
   return std::min(std::max(packet.sent + trip + std::max(ack_silence_, kSilenceMin), alone),
                   packet.sent + trip + kSilenceMax);
@@ -154,14 +174,16 @@ MeshTime SentPackets::loss_time() const {
   for (std::uint64_t number = std::max(undecided_, first_); number < end(); ++number) {
     const Record& record = packets_[number - first_];
     if (record.fate == Fate::kInFlight && record.packet.wants_ack) {
-      return loss_time(record.packet);
+      return std::min(forgotten_since_, loss_time(record.packet));
     }
   }
-  return kNever;
+  return forgotten_since_;
 }
 
 SentPackets::Settled SentPackets::on_time(MeshTime now) {
   Settled settled;
+  move_all(forgotten_, settled.lost);
+  forgotten_since_ = kNever;
   for (; undecided_ < end(); ++undecided_) {
     Record* record = find(undecided_);
     if (record == nullptr || record->fate != Fate::kInFlight) continue;
@@ -175,6 +197,8 @@ SentPackets::Settled SentPackets::on_time(MeshTime now) {
 
 std::vector<Ticket> SentPackets::abandon() {
   Settled settled;
+  move_all(forgotten_, settled.lost);
+  forgotten_since_ = kNever;
   for (; undecided_ < end(); ++undecided_) {
     Record* record = find(undecided_);
     if (record != nullptr && record->fate == Fate::kInFlight) lose(*record, settled);
@@ -186,6 +210,14 @@ void SentPackets::forget_path() {
   smoothed_rtt_.reset();
   reordering_ = ack_silence_ = Duration{0};
   loss_ = 0.0;
+}
+
+// None if the delay told says nothing: too long to be exact, or longer than the packet is away.
+std::optional<Duration> SentPackets::rtt_sample(MeshTime now, const Packet& packet,
+                                                Duration delay) {
+  const Duration away = now - packet.sent;
+  if (delay >= kHeldTooLong || delay > away) return {};
+  return std::clamp(away - delay, Duration{1}, Duration{kRttMax});
 }
 
 void SentPackets::measure_rtt(Duration rtt) {  // RFC 9002, 5.3
@@ -237,7 +269,7 @@ std::optional<std::vector<Ticket>> SentPackets::take_repeat(MeshTime sent_before
 }
 
 std::size_t SentPackets::memory_bytes() const {
-  std::size_t bytes = packets_.size() * sizeof(Record);
+  std::size_t bytes = packets_.size() * sizeof(Record) + forgotten_.capacity() * sizeof(Ticket);
   for (const Record& record : packets_) bytes += record.packet.tickets.capacity() * sizeof(Ticket);
   return bytes;
 }

@@ -33,6 +33,8 @@ struct AckReport {
     double busy_bytes = 0.0;
     Duration busy{};
     Duration busy_own{};
+    // Pairs that count for nothing because the sender had nothing to send between.
+    std::uint64_t pauses = 0;
   };
   std::optional<Largest> largest;
   PairSums pairs;
@@ -46,7 +48,8 @@ struct AckReport {
 
 // What was sent to one peer and what became of it. Numbers rise by one with each packet. Loss is
 // found by later packets that arrived (RFC 9002, 6.1, with a reordering allowance that adapts), and
-// at the tail by time, without back-off. Bounded: at most kPacketsMax records.
+// at the tail by time, without back-off. Bounded: at most kPacketsMax records; one more makes the
+// oldest forgotten, as lost if it is in flight.
 class SentPackets {
  public:
   static constexpr std::size_t kPacketsMax = 16384;
@@ -65,7 +68,7 @@ class SentPackets {
     AckReport report;
   };
 
-  // Precondition: number is one more than the last (any at first); room().
+  // Precondition: number is one more than the last (any at first).
   void on_sent(std::uint64_t number, Packet packet);
   Settled on_ack(MeshTime now, const AckFrame& ack);
   // All that is in flight is lost: the peer is no more.
@@ -103,8 +106,10 @@ class SentPackets {
   Record* find(std::uint64_t number);
   void acknowledge(MeshTime now, std::uint64_t number, Settled& settled);
   void lose(Record& record, Settled& settled);
+  void forget_oldest(MeshTime now);
   void lose_overtaken(Settled& settled);
   void add_pairs(std::uint64_t number);
+  std::optional<Duration> rtt_sample(MeshTime now, const Packet& packet, Duration delay);
   void measure_rtt(Duration rtt);
   void measure_loss(bool lost);
   void forget_settled(MeshTime now);
@@ -116,6 +121,8 @@ class SentPackets {
   std::optional<std::uint64_t> largest_acked_;
   std::size_t bytes_in_flight_ = 0;
   std::size_t packets_in_flight_ = 0;
+  std::vector<Ticket> forgotten_;  // lost with their record, not told yet
+  MeshTime forgotten_since_ = kNever;
   AckReport::PairSums pairs_;
   double acked_bytes_ = 0.0;
   double busy_acked_bytes_ = 0.0;

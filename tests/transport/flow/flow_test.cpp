@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/flow/flow.hpp"
 
+#include <deque>
+
 #include <doctest/doctest.h>
 
 #include "transfer.hpp"
@@ -87,6 +89,99 @@ TEST_CASE("in silence no deadline lies in the past") {
   flow.on_heard(MeshTime{seconds{21}});
   flow.on_time(MeshTime{seconds{21}});
   CHECK(flow.next_time() > MeshTime{seconds{21}});
+}
+
+TEST_CASE("answers to somebody who acknowledges nothing are bounded, and each ticket comes back") {
+  Flow flow({});
+  MeshTime now{seconds{1}};
+  flow.on_sent(now, packet(0));
+  AckFrame absurd;
+  absurd.ranges = {{0, 1}};
+  flow.on_ack(now += seconds{30}, absurd);
+  std::uint64_t sent = 1;
+  std::size_t lost = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    lost += flow.on_time(now += milliseconds{1}).lost.size();
+    if (flow.may_send_at_once(now)) flow.on_sent(now, packet(sent++));
+  }
+  CHECK(sent >= 100);
+  CHECK(sent <= 5'000);
+  // Even one that asks nobody does no harm.
+  for (int i = 0; i < 50'000; ++i) flow.on_sent(now, packet(sent++));
+  lost += flow.on_time(now).lost.size() + flow.abandon().lost.size();
+  CHECK(lost == sent - 1);
+}
+
+// One hello, a pause, then as much as may go, over 50 kbit/s: the rate that is held for the link's.
+double rate_after_pause(Duration pause) {
+  struct UnderWay {
+    MeshTime at;
+    std::uint64_t number = 0;
+  };
+  Flow sender({}), receiver({});
+  NodePacer pacer(std::nullopt);
+  pacer.want(1, true);
+  std::deque<UnderWay> there;
+  std::deque<std::pair<MeshTime, AckFrame>> back;
+  std::uint64_t sent = 0;
+  MeshTime link_free{};
+  const MeshTime start{seconds{1}};
+  const auto send = [&](MeshTime now) {
+    const bool backlogged = pacer.on_sent(now, 1, 400, sender.pace());
+    Flow::Sent full = packet(sent);
+    full.ip_bytes = 400;
+    full.backlogged = backlogged;
+    sender.on_sent(now, full);
+    link_free = std::max(link_free, now) + milliseconds{64};
+    there.push_back({link_free + milliseconds{25}, sent++});
+  };
+  send(start);
+  for (MeshTime now = start; now < start + pause + seconds{1}; now += milliseconds{1}) {
+    sender.on_time(now);
+    while (!there.empty() && there.front().at <= now) {
+      receiver.on_received(now, {there.front().number, 400, true});
+      there.pop_front();
+    }
+    if (receiver.ack_due(now)) back.emplace_back(now + milliseconds{25}, *receiver.take_ack(now));
+    while (!back.empty() && back.front().first <= now) {
+      sender.on_ack(now, back.front().second);
+      back.pop_front();
+    }
+    if (now < start + pause) continue;
+    while (sender.may_send(now) && pacer.next(now)) send(now);
+  }
+  return sender.quality(start).rate_bit_s;
+}
+
+TEST_CASE("a pause after the first packet does not make a slow link look fast") {
+  for (const int pause_ms : {100, 500, 900, 1050, 1500, 10'000}) {
+    CAPTURE(pause_ms);
+    const double rate = rate_after_pause(milliseconds{pause_ms});
+    CHECK(rate >= 30'000.0);
+    CHECK(rate <= 80'000.0);
+  }
+}
+
+TEST_CASE("it is told when there will be room although no acknowledgement comes") {
+  TransferConfig config;
+  config.flows = {{}};
+  Transfer transfer(config);
+  transfer.run_until(seconds{5});
+  Flow flow = transfer.sender(0);
+  MeshTime now = transfer.now();
+  std::uint64_t number = transfer.packets_sent(0);
+  flow.on_time(now);
+  while (flow.may_send(now)) flow.on_sent(now, packet(number++));
+  int sent = 0;
+  for (const MeshTime end = now + milliseconds{600}; now < end;) {
+    now = std::max(flow.next_time(), now + Duration{1});
+    flow.on_time(now);
+    if (!flow.may_send(now)) continue;
+    flow.on_sent(now, packet(number++));
+    ++sent;
+  }
+  // 1 Mbit/s for half a second, in packets of 500 bytes.
+  CHECK(sent >= 90);
 }
 
 TEST_CASE("the quality of the link is told") {

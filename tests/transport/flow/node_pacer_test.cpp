@@ -73,6 +73,20 @@ TEST_CASE("who rested does not starve the others when it comes back") {
   CHECK(second >= 45.0);
 }
 
+TEST_CASE("what does not wait for its turn does not keep the others from theirs for long") {
+  NodePacer pacer(std::nullopt);
+  pacer.want(2, true);
+  MeshTime now{seconds{1}};
+  for (int i = 0; i < 300; ++i) pacer.on_sent(now += milliseconds{10}, 1, 80, 1'000.0);
+  CHECK(pacer.ready_at() <= now + milliseconds{250});
+  CHECK(pacer.next(now + milliseconds{250}) == NodePacer::Peer{2});
+  // A packet alone may last longer.
+  now += seconds{1};
+  pacer.on_sent(now, 2, 1000, 1'000.0);
+  pacer.on_sent(now, 2, 1000, 1'000.0);
+  CHECK(pacer.ready_at() == now + seconds{1});
+}
+
 TEST_CASE("a peer that wants nothing is never named") {
   NodePacer pacer(std::nullopt);
   pacer.want(1, true);

@@ -110,6 +110,40 @@ TEST_CASE("each ticket is told, and memory stays bounded, when nothing ever arri
   CHECK(sent.memory_bytes() <= SentPackets::kPacketsMax * 400);
 }
 
+TEST_CASE("one record too many makes the oldest forgotten, as lost, and the rest goes on") {
+  SentPackets sent;
+  for (std::uint64_t i = 0; i < SentPackets::kPacketsMax + 3; ++i) send(sent, i, at(1));
+  CHECK(sent.packets_in_flight() == SentPackets::kPacketsMax);
+  CHECK(sent.loss_time() <= at(1));
+  CHECK(numbers(sent.on_time(at(1)).lost) == std::vector<std::uint64_t>{0, 1, 2});
+  CHECK(sent.loss_time() > at(1));
+  const auto settled = sent.on_ack(at(2), ack({{0, 10}}));
+  CHECK(numbers(settled.acked) == std::vector<std::uint64_t>{3, 4, 5, 6, 7, 8, 9});
+  CHECK(sent.memory_bytes() <= SentPackets::kPacketsMax * 400);
+}
+
+TEST_CASE("an acknowledgement that comes absurdly late makes nobody wait for long") {
+  SentPackets sent;
+  send(sent, 0, at(0));
+  sent.on_ack(at(3'600'000), ack({{0, 1}}));
+  CHECK(*sent.smoothed_rtt() <= seconds{5});
+  send(sent, 1, at(3'600'000));
+  CHECK(sent.loss_time() <= at(3'600'000) + seconds{10});
+}
+
+TEST_CASE("a delay longer than the packet is away tells nothing of the round trip") {
+  SentPackets sent;
+  send(sent, 0, at(0));
+  sent.on_ack(at(100), ack({{0, 1}}));
+  send(sent, 1, at(200));
+  AckFrame absurd = ack({{0, 2}});
+  absurd.delay = milliseconds{400};
+  const auto settled = sent.on_ack(at(300), absurd);
+  REQUIRE(settled.report.largest);
+  CHECK_FALSE(settled.report.largest->rtt);
+  CHECK(*sent.smoothed_rtt() == milliseconds{100});
+}
+
 TEST_CASE("a packet in flight is offered for repetition once, the oldest first") {
   SentPackets sent;
   send(sent, 0, at(0));

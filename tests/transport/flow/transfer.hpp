@@ -48,6 +48,7 @@ class Transfer {
   std::optional<MeshTime> finished(std::size_t flow) const { return sides_[flow].finished; }
   std::size_t app_bytes_arrived(std::size_t flow) const { return sides_[flow].bytes_arrived; }
   std::size_t data_bytes_sent(std::size_t flow) const { return sides_[flow].bytes_sent; }
+  std::uint64_t packets_sent(std::size_t flow) const { return sides_[flow].next_number; }
   std::size_t ack_bytes_sent() const { return ack_bytes_; }
   std::size_t resent_in_vain(std::size_t flow) const { return sides_[flow].resent_in_vain; }
   const Flow& sender(std::size_t flow) const { return *sides_[flow].sender; }
