@@ -16,6 +16,10 @@ constexpr Duration kAnswerSpreadMost = std::chrono::milliseconds(60);
 // A beacon told with a shorter period is of someone who hears nobody: answers suffice for him.
 constexpr Duration kLonePeriod = std::chrono::milliseconds(300);
 
+// Uptimes are told in whole seconds.
+constexpr Duration kLateBeacon = std::chrono::milliseconds(2500);
+constexpr Duration kAskLate = std::chrono::seconds(1);
+
 std::uint32_t low_half(BootId boot) { return static_cast<std::uint32_t>(boot.bits); }
 
 }  // namespace
@@ -50,14 +54,35 @@ Peer* Discovery::on_beacon(MeshTime now, const PacketHeader& header, const MeshP
     return nullptr;
   }
   if (peer != nullptr) return on_session_beacon(now, *peer, *beacon, from);
-  on_unconfirmed_beacon(now, header.sender, *beacon, from);
+  if (!node_.can_be_peer(beacon->member)) {
+    node_.count(Unused::kMalformed);
+    return nullptr;
+  }
+  on_unconfirmed_beacon(now, header, *beacon, from);
   return nullptr;
+}
+
+// A beacon that we missed and someone recorded is younger than the last one, but comes too late.
+bool Discovery::is_late(MeshTime now, Session& session, const Beacon& beacon) {
+  const MeshTime booted = now - std::chrono::seconds(beacon.uptime_s);
+  if (session.booted && booted - *session.booted > kLateBeacon) return true;
+  session.booted = booted;
+  return false;
 }
 
 Peer* Discovery::on_session_beacon(MeshTime now, Peer& peer, const Beacon& beacon,
                                    const MeshPath& from) {
+  if (is_late(now, *peer.session, beacon)) {
+    // Or our clock was set, or its: the answer to a question will tell.
+    node_.count(Unused::kNotFresh);
+    if (!peer.answer && (peer.asked == MeshTime::min() || now - peer.asked > kAskLate)) {
+      peer.asked = now;
+      peer.answer = Peer::Answer{now, from, true, 1};
+    }
+    return &peer;
+  }
   const Duration period = std::chrono::milliseconds(beacon.period_ms);
-  peer.liveness.on_beacon(now, period);
+  peer.liveness.on_beacon(now, period, node_.members.size());
   peer.paths.on_beacon(now, from, period);
   for (const Beacon::Heard& heard : beacon.heard) {
     if (heard.boot != low_half(node_.config.boot)) continue;
@@ -76,15 +101,26 @@ Peer* Discovery::on_session_beacon(MeshTime now, Peer& peer, const Beacon& beaco
   return &peer;
 }
 
-void Discovery::on_unconfirmed_beacon(MeshTime now, BootId boot, const Beacon& beacon,
-                                      const MeshPath& from) {
+void Discovery::on_unconfirmed_beacon(MeshTime now, const PacketHeader& header,
+                                      const Beacon& beacon, const MeshPath& from) {
   if (node_.members.full() && node_.members.find(beacon.member) == nullptr) {
     node_.count(Unused::kMemberTableFull);
     return;
   }
-  greet(now, beacon);
-  const UnconfirmedBoots::Boot told{boot, beacon.member, from, now, now + answer_delay(now)};
-  if (!unconfirmed_.heard(now, told)) node_.count(Unused::kAnswerRateLimited);
+  using Verdict = UnconfirmedBoots::Verdict;
+  UnconfirmedBoots::Boot told{header.sender, beacon.member, from};
+  told.number = header.number;
+  told.answer_at = now + answer_delay(now);
+  const Verdict verdict = unconfirmed_.on_beacon(now, told);
+  if (verdict == Verdict::kFirst) greet(now, beacon);
+  if (verdict == Verdict::kReplayed) node_.count(Unused::kReplayed);
+  if (verdict == Verdict::kTooMany) node_.count(Unused::kAnswerRateLimited);
+}
+
+void Discovery::challenge(MeshTime now, BootId boot, MemberId member, const MeshPath& from) {
+  UnconfirmedBoots::Boot asked{boot, member, from};
+  asked.answer_at = now;
+  unconfirmed_.challenge(now, asked);
 }
 
 // Those around someone who appeared should hear us too.
@@ -142,8 +178,8 @@ void Discovery::send_round(MeshTime now) {
   BeaconClock::Surroundings surroundings{neighbours(now), misses_someone(now), 0};
   const std::size_t packet_bytes = kEnvelopeBytes + encode(beacon).size() + 2;
   for (const InterfaceConfig& interface : node_.config.interfaces) {
-    surroundings.round_bytes +=
-        (1 + interface.seeds.size()) * (interface.ip_header_bytes + packet_bytes);
+    surroundings.round_bytes += (interface.group_copies + interface.seeds.size()) *
+                                (interface.ip_header_bytes + packet_bytes);
   }
   const auto period =
       std::chrono::ceil<std::chrono::milliseconds>(BeaconClock::longest(surroundings));
@@ -186,7 +222,7 @@ std::optional<Datagram> Discovery::poll(MeshTime now) {
     return std::nullopt;
   }
   const InterfaceIndex interface = datagram->to.interface;
-  const std::size_t ip_bytes = node_.ip_bytes(interface, datagram->bytes.size());
+  const std::size_t ip_bytes = node_.link_bytes(*datagram);
   node_.pacers[interface].on_sent(now, std::nullopt, ip_bytes, node_.slowest_pace(now, interface));
   node_.count_sent(ip_bytes);
   ++node_.counts[sent_class].packets;

@@ -23,6 +23,8 @@ class Discovery {
   // The peer that is concerned, if there is one.
   Peer* on_beacon(MeshTime now, const PacketHeader& header, const MeshPath& from,
                   std::span<const std::uint8_t> packet);
+  // This boot is asked to prove that it lives.
+  void challenge(MeshTime now, BootId boot, MemberId member, const MeshPath& from);
   // A pair packet of this boot has come.
   void on_confirmed(BootId boot) { unconfirmed_.forget(boot); }
 
@@ -32,7 +34,9 @@ class Discovery {
 
  private:
   Peer* on_session_beacon(MeshTime now, Peer& peer, const Beacon& beacon, const MeshPath& from);
-  void on_unconfirmed_beacon(MeshTime now, BootId boot, const Beacon& beacon, const MeshPath& from);
+  void on_unconfirmed_beacon(MeshTime now, const PacketHeader& header, const Beacon& beacon,
+                             const MeshPath& from);
+  static bool is_late(MeshTime now, Session& session, const Beacon& beacon);
   void greet(MeshTime now, const Beacon& beacon);
   void on_time(MeshTime now);
   bool misses_someone(MeshTime now) const;

@@ -39,7 +39,7 @@ struct Endpoint::State {
 Endpoint::Endpoint(const EndpointConfig& config, std::shared_ptr<const KeySchedule> keys,
                    MapSource& source)
     : state_(std::make_unique<State>(config, std::move(keys), source)) {
-  assert(!config.interfaces.empty());
+  assert(!config.interfaces.empty() && config.self.number != UINT32_MAX);
 }
 
 Endpoint::~Endpoint() = default;
@@ -96,6 +96,7 @@ tl::expected<void, SendError> Endpoint::set_telemetry(MeshTime now, std::uint16_
 tl::expected<ParcelKey, SendError> Endpoint::send_parcel(MeshTime now, MemberId to,
                                                          ParcelClass priority,
                                                          std::span<const std::uint8_t> bytes) {
+  if (!state_->node.can_be_peer(to)) return tl::unexpected(SendError::kUnknownMember);
   Peer* peer = state_->node.find_or_add(to);
   if (peer == nullptr) return tl::unexpected(SendError::kFull);
   const auto key = peer->outbox.send_parcel(priority, bytes);

@@ -25,6 +25,7 @@ struct InterfaceConfig {
   std::size_t mtu_bytes = 1428;         // of an IP packet, headers included
   std::size_t ip_header_bytes = 28;     // IP and UDP: 28, or 48 with IPv6
   std::optional<double> ceiling_bit_s;  // of all that this node sends there, IP bytes
+  std::size_t group_copies = 1;         // datagrams that the shell sends for one to the group
   bool group_broadcast = false;         // ask MapSource for packets that all can hear
   std::vector<MeshAddress> seeds;       // beacons go there too, besides the group
 };

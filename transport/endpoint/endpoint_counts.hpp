@@ -16,6 +16,7 @@ enum class Unused : std::uint8_t {
   kMalformed,          // authentic and yet not readable
   kReplayed,           // its number has come already, or is too old
   kRetiredBoot,        // of a life that has ended
+  kNotFresh,           // authentic, but perhaps recorded: what it says has to be proved
   kUnknownSender,      // authentic, but does not say who sends
   kMemberTableFull,    // a new member beyond members_max
   kAnswerRateLimited,  // beacons of unconfirmed boots that got no answer

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "transport/wire/beacon.hpp"
+
 namespace warren {
 namespace {
 
@@ -16,7 +18,8 @@ bool within(MeshTime now, MeshTime then, Duration limit) {
 
 }  // namespace
 
-void Liveness::on_beacon(MeshTime now, Duration period) {
+void Liveness::on_beacon(MeshTime now, Duration period, std::size_t crowd) {
+  crowd_ = crowd;
   heard_ = now;
   period_ = std::clamp(period, kPeriodLeast, kPeriodMost);
 }
@@ -27,6 +30,11 @@ void Liveness::on_pair_packet(MeshTime now) {
 }
 
 Duration Liveness::heard_limit() const { return std::max(kHeardLeast, kBeaconsMissed * period_); }
+
+Duration Liveness::hears_us_limit() const {
+  const auto beacons_for_all = static_cast<Duration::rep>(crowd_ / Beacon::kHeardMax);
+  return kHearsUsFactor * (heard_limit() + beacons_for_all * period_);
+}
 
 std::optional<bool> Liveness::update(MeshTime now) {
   const bool up = within(now, heard_, heard_limit()) && within(now, hears_us_, hears_us_limit());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "transport/mesh_time.hpp"
@@ -16,7 +17,8 @@ class Liveness {
   // The lists of whom a beacon's sender hears take several beacons in a crowd.
   static constexpr int kHearsUsFactor = 3;
 
-  void on_beacon(MeshTime now, Duration period);
+  // crowd: of how many members its sender may hear.
+  void on_beacon(MeshTime now, Duration period, std::size_t crowd = 0);
   void on_pair_packet(MeshTime now);  // whoever seals for us has heard us
   void on_hears_us(MeshTime now) { hears_us_ = now; }
 
@@ -31,11 +33,12 @@ class Liveness {
 
  private:
   Duration heard_limit() const;
-  Duration hears_us_limit() const { return kHearsUsFactor * heard_limit(); }
+  Duration hears_us_limit() const;
 
   MeshTime heard_ = MeshTime::min();
   MeshTime hears_us_ = MeshTime::min();
   Duration period_ = std::chrono::seconds(1);
+  std::size_t crowd_ = 0;
   bool up_ = false;
 };
 

@@ -63,12 +63,9 @@ void Node::begin_session(MeshTime now, Peer& peer, BootId boot) {
   for (const InterfaceConfig& interface : config.interfaces) {
     rate.packet_bytes_max = std::max(rate.packet_bytes_max, interface.mtu_bytes);
   }
-  members.begin_session(peer, Session{SessionKeys(*keys, config.boot, boot, free_pair_number),
-                                      Flow(rate),
-                                      now,
-                                      false,
-                                      {},
-                                      std::nullopt});
+  Session session{SessionKeys(*keys, config.boot, boot, free_pair_number), Flow(rate)};
+  session.since = now;
+  members.begin_session(peer, std::move(session));
 }
 
 void Node::settle(MeshTime now, Peer& peer, const Flow::Outcome& outcome) {

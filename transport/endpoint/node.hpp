@@ -21,6 +21,8 @@ struct Node {
   Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule> key_schedule,
        MapSource& map_source);
 
+  // Whether it can be another member: not us, nor the number that names the group's turn.
+  bool can_be_peer(MemberId id) const { return id != config.self && id.number != UINT32_MAX; }
   // The member, made known if it is not; none if there is no room for it.
   Peer* find_or_add(MemberId id);
   // A pair packet proved this boot.
@@ -34,6 +36,12 @@ struct Node {
   void count_sent(std::size_t ip_bytes);
   std::size_t ip_bytes(InterfaceIndex interface, std::size_t packet_bytes) const {
     return config.interfaces[interface].ip_header_bytes + packet_bytes;
+  }
+  // What a datagram takes of the link.
+  std::size_t link_bytes(const Datagram& datagram) const {
+    const std::size_t copies =
+        datagram.to.group ? config.interfaces[datagram.to.interface].group_copies : 1;
+    return copies * ip_bytes(datagram.to.interface, datagram.bytes.size());
   }
   // The slowest of those in reach there, IP bytes/s: what a packet for all takes its airtime by.
   double slowest_pace(MeshTime now, InterfaceIndex interface) const;

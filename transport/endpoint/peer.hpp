@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "transport/delivery/inbox.hpp"
@@ -20,11 +21,16 @@ namespace warren {
 
 // With one boot of a peer, from its first pair packet on; it outlives any silence.
 struct Session {
+  Session(SessionKeys session_keys, Flow session_flow)
+      : keys(std::move(session_keys)), flow(std::move(session_flow)) {}
+
   SessionKeys keys;
   Flow flow;
   MeshTime since;
   bool knows_us = false;  // it has our hello
-  SizeWitness sizes;      // of packets on the current path
+  // When its boot began by the beacon taken last, on our clock.
+  std::optional<MeshTime> booted;
+  SizeWitness sizes;  // of packets on the current path
   // The first packet that wanted an acknowledgement since the peer was heard.
   std::optional<MeshTime> awaiting_since;
 };
@@ -43,6 +49,8 @@ struct Peer {
   static constexpr int kAskTries = 4;
   static constexpr int kReplyTries = 2;
   static constexpr Duration kTryAgain = std::chrono::milliseconds(100);
+  static constexpr Duration kProofOfClock = std::chrono::seconds(5);
+  static constexpr Duration kReplyLeast = std::chrono::milliseconds(20);
 
   Peer(MemberId member, const DeliveryConfig& delivery, std::uint64_t fresh_stream,
        const TelemetryBoard& board, ParcelBudget& sent, ParcelBudget& received,
@@ -60,6 +68,8 @@ struct Peer {
   PeerPaths paths;
   std::optional<Session> session;
   std::optional<Answer> answer;
+  MeshTime asked = MeshTime::min();           // because of a beacon that may be recorded
+  MeshTime replied = MeshTime::min();         // to a hello
   std::optional<std::vector<Ticket>> repeat;  // what goes once more if nothing else does
   // Where it stands in the endpoint's order.
   MeshTime deadline = kNever;

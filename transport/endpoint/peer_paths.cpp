@@ -17,10 +17,12 @@ constexpr double kMeanPeriod = 0.9;
 bool PeerPaths::on_pair_packet(MeshTime now, const MeshPath& from, bool newest) {
   Path& path = paths_[from.interface];
   path.heard = now;
+  if (path.address == from.address) path.address_heard = now;
   if (!newest) return false;
   const bool other_address = path.address != from.address;
   if (other_address) {
     path.address = from.address;
+    path.address_heard = now;
     path.size = {};
   }
   if (!current_) {
@@ -39,6 +41,9 @@ void PeerPaths::on_beacon(MeshTime now, const MeshPath& from, Duration period) {
     path.beacon_loss += kBeaconGain * (lost - path.beacon_loss);
   }
   path.beacon = path.heard = now;
+  if (path.address == from.address) path.address_heard = now;
+  // What the flow knew of it is of long ago.
+  if (current_ != from.interface) path.loss += kBeaconGain * (path.beacon_loss - path.loss);
   path.period = std::max(period, Duration(std::chrono::milliseconds(100)));
 }
 
@@ -77,6 +82,8 @@ bool PeerPaths::choose(MeshTime now) {
 bool PeerPaths::take_probe(MeshTime now, const MeshPath& from) {
   Path& path = paths_[from.interface];
   if (path.address == from.address) return false;
+  // It has several addresses here, and one of them is proved.
+  if (path.address && now - path.address_heard < kStaleLeast) return false;
   if (path.probed != MeshTime::min() && now - path.probed < kProbeLeast) return false;
   path.probed = now;
   return true;

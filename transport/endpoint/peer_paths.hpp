@@ -45,6 +45,7 @@ class PeerPaths {
   struct Path {
     std::optional<MeshAddress> address;  // proved
     MeshTime heard = MeshTime::min();
+    MeshTime address_heard = MeshTime::min();
     MeshTime beacon = MeshTime::min();
     MeshTime probed = MeshTime::min();
     Duration period = std::chrono::seconds(1);

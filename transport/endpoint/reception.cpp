@@ -26,6 +26,14 @@ const HelloFrame* hello_in(const std::vector<Frame>& frames) {
   return nullptr;
 }
 
+// Only who lives now has received numbers that were not used before.
+bool acknowledges_since(const std::vector<Frame>& frames, std::uint64_t first) {
+  return std::any_of(frames.begin(), frames.end(), [&](const Frame& frame) {
+    const auto* ack = std::get_if<AckFrame>(&frame);
+    return ack != nullptr && !ack->ranges.empty() && ack->ranges.front().end > first;
+  });
+}
+
 // Whoever acknowledges us, or no longer asks, has heard us.
 bool shows_we_are_heard(const std::vector<Frame>& frames) {
   const HelloFrame* hello = hello_in(frames);
@@ -64,7 +72,7 @@ Peer* Reception::on_datagram(MeshTime now, const MeshPath& sender,
 
 // From a boot without a session: authentic, it proves the boot, because whoever sealed it knows
 // this life of ours.
-Peer* Reception::on_first_packet(MeshTime now, const PacketHeader& header,
+Peer* Reception::on_first_packet(MeshTime now, const PacketHeader& header, const MeshPath& from,
                                  std::span<const std::uint8_t> packet) {
   if (node_.members.is_retired(header.sender)) {
     node_.count(Unused::kRetiredBoot);
@@ -81,12 +89,18 @@ Peer* Reception::on_first_packet(MeshTime now, const PacketHeader& header,
     node_.count(frames ? Unused::kUnknownSender : Unused::kMalformed);
     return nullptr;
   }
-  if (hello->member == node_.config.self) {
-    node_.count(Unused::kOwnMember);
+  if (!node_.can_be_peer(hello->member)) {
+    node_.count(hello->member == node_.config.self ? Unused::kOwnMember : Unused::kMalformed);
     return nullptr;
   }
   Peer* peer = node_.find_or_add(hello->member);
   if (peer == nullptr) return nullptr;
+  if (peer->session && !acknowledges_since(*frames, peer->session->keys.first_number())) {
+    // Perhaps recorded in a life before the one that we know, and never received.
+    node_.count(Unused::kNotFresh);
+    discovery_.challenge(now, header.sender, hello->member, from);
+    return nullptr;
+  }
   node_.begin_session(now, *peer, header.sender);
   discovery_.on_confirmed(header.sender);
   return peer;
@@ -95,7 +109,7 @@ Peer* Reception::on_first_packet(MeshTime now, const PacketHeader& header,
 Peer* Reception::on_pair_packet(MeshTime now, const PacketHeader& header, const MeshPath& from,
                                 std::span<const std::uint8_t> packet) {
   Peer* peer = node_.members.find(header.sender);
-  if (peer == nullptr) peer = on_first_packet(now, header, packet);
+  if (peer == nullptr) peer = on_first_packet(now, header, from, packet);
   if (peer == nullptr) return nullptr;
   Session& session = *peer->session;
   const auto content = session.keys.open(header, packet);
@@ -109,6 +123,10 @@ Peer* Reception::on_pair_packet(MeshTime now, const PacketHeader& header, const 
     return nullptr;
   }
   session.awaiting_since.reset();
+  if (peer->asked != MeshTime::min() && now - peer->asked < Peer::kProofOfClock) {
+    session.booted.reset();  // it lives: the next beacon is believed
+    peer->asked = MeshTime::min();
+  }
   session.flow.on_heard(now);
   session.flow.on_received(
       now, {header.number, node_.ip_bytes(from.interface, packet.size()), wants_ack(*frames)});
@@ -145,6 +163,13 @@ Peer* Reception::on_group_packet(const PacketHeader& header, std::span<const std
   return peer;
 }
 
+void Reception::reply(MeshTime now, Peer& peer, const MeshPath& from) {
+  const bool too_soon = peer.replied != MeshTime::min() && now - peer.replied < Peer::kReplyLeast;
+  if (!too_soon) peer.replied = now;
+  peer.answer = Peer::Answer{too_soon ? peer.replied + Peer::kReplyLeast : now, from, false,
+                             Peer::kReplyTries};
+}
+
 void Reception::on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack) {
   const auto outcome = peer.session->flow.on_ack(now, ack);
   // Every packet before this acknowledgement had our hello.
@@ -155,8 +180,7 @@ void Reception::on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack
 
 void Reception::on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&& frame) {
   std::visit(Visitor{[&](HelloFrame& hello) {
-                       if (hello.wants_answer)
-                         peer.answer = Peer::Answer{now, from, false, Peer::kReplyTries};
+                       if (hello.wants_answer) reply(now, peer, from);
                      },
                      [&](AckFrame& ack) { on_acknowledgement(now, peer, ack); }, [](PingFrame&) {},
                      [&](ParcelStateFrame& state) {

@@ -20,9 +20,10 @@ class Reception {
   Peer* on_pair_packet(MeshTime now, const PacketHeader& header, const MeshPath& from,
                        std::span<const std::uint8_t> packet);
   Peer* on_group_packet(const PacketHeader& header, std::span<const std::uint8_t> packet);
-  Peer* on_first_packet(MeshTime now, const PacketHeader& header,
+  Peer* on_first_packet(MeshTime now, const PacketHeader& header, const MeshPath& from,
                         std::span<const std::uint8_t> packet);
   void on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&& frame);
+  static void reply(MeshTime now, Peer& peer, const MeshPath& from);
   void on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack);
   void hand_on(MemberId from, Received&& received);
   void relieve_memory();

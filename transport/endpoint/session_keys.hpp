@@ -27,8 +27,11 @@ class SessionKeys {
   BootId peer() const { return peer_; }
   // Of the next packet that is sealed.
   std::uint64_t next_number() const { return next_number_; }
+  // Whoever has received a number from this on has heard us since this session began.
+  std::uint64_t first_number() const { return first_number_; }
   std::vector<std::uint8_t> seal(std::span<const std::uint8_t> content);
-  // Precondition: header is the packet's, and its sender is the peer.
+  // Precondition: header is the packet's, and its sender is the peer. Of beacons only the latest:
+  // those of several interfaces may overtake each other a little.
   tl::expected<Content, Unused> open(const PacketHeader& header,
                                      std::span<const std::uint8_t> packet);
   // None with a higher number has been opened for this pair. Of a header just opened.
@@ -42,8 +45,10 @@ class SessionKeys {
   Key sealing_;
   Key opening_;
   Key group_;
+  std::uint64_t first_number_;
   std::uint64_t next_number_;
   std::uint64_t newest_pair_end_ = 0;
+  std::uint64_t newest_beacon_end_ = 0;
   ReplayWindow pair_window_;
   ReplayWindow beacon_window_;
   ReplayWindow group_window_;

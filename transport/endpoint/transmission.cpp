@@ -19,7 +19,8 @@ Transmission::Transmission(Node& node)
     : node_(node),
       group_key_(node.keys->group_key(node.config.boot)),
       turns_wanted_(node.config.interfaces.size()),
-      group_awake_(node.config.interfaces.size()) {
+      group_awake_(node.config.interfaces.size()),
+      group_alone_(node.config.interfaces.size()) {
   for (std::size_t i = 0; i < group_awake_.size(); ++i) {
     if (node.config.interfaces[i].group_broadcast) wake_group(static_cast<InterfaceIndex>(i));
   }
@@ -58,6 +59,7 @@ void Transmission::set_turn(Peer& peer, std::optional<InterfaceIndex> interface)
 void Transmission::wake_group(InterfaceIndex interface) {
   if (!node_.config.interfaces[interface].group_broadcast || group_awake_[interface]) return;
   group_awake_[interface] = true;
+  group_alone_[interface] = false;
   node_.pacers[interface].want(kGroupTurn, true);
   ++turns_wanted_[interface];
 }
@@ -94,6 +96,9 @@ void Transmission::refresh(MeshTime now, Peer& peer, bool serviced) {
   const bool answers = peer.session && peer.answer && peer.answer->at <= now;
   set_prompt(peer, answers || (in_reach && (peer.session->flow.ack_due(now) ||
                                             peer.outbox.next_due(SendClass::kUrgent) <= now)));
+  if (in_reach && group_alone_[peer.paths.current()->interface]) {
+    wake_group(peer.paths.current()->interface);
+  }
   if (in_reach && wants_turn(now, peer)) {
     set_turn(peer, peer.paths.current()->interface);
   } else {
@@ -174,6 +179,7 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
       config.mtu_bytes - config.ip_header_bytes - kEnvelopeBytes - MapFrame::kOverhead;
   auto packet = heard ? node_.source.next_for_group(interface, limit) : std::nullopt;
   if (!packet) {
+    group_alone_[interface] = !heard;
     group_awake_[interface] = false;
     node_.pacers[interface].want(kGroupTurn, false);
     --turns_wanted_[interface];
@@ -184,7 +190,7 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
   Datagram datagram{
       {interface, true, {}},
       seal(group_key_, {PacketType::kGroup, node_.config.boot, group_number_++}, content)};
-  const std::size_t ip_bytes = node_.ip_bytes(interface, datagram.bytes.size());
+  const std::size_t ip_bytes = node_.link_bytes(datagram);
   node_.pacers[interface].on_sent(now, kGroupTurn, ip_bytes, node_.slowest_pace(now, interface));
   node_.count_sent(ip_bytes);
   ++node_.counts[SentClass::kGroup].packets;

@@ -43,6 +43,7 @@ class Transmission {
   std::set<MemberId> prompt_;
   std::vector<std::size_t> turns_wanted_;  // by interface
   std::vector<bool> group_awake_;          // by interface
+  std::vector<bool> group_alone_;          // would be awake, but nobody is in reach
 };
 
 }  // namespace warren

@@ -25,12 +25,20 @@ class UnconfirmedBoots {
     BootId boot;
     MemberId member;  // as it says
     MeshPath path;
-    MeshTime heard;
+    std::uint64_t number = 0;  // of the beacon
+    MeshTime heard{};
     MeshTime answer_at = kNever;
+    int answers = 0;
+    MeshTime answered = MeshTime::min();
   };
+  enum class Verdict : std::uint8_t { kFirst, kKnown, kReplayed, kTooMany };
 
-  // Answered at `answer_at`, unless an answer is due already. False: too many answers lately.
-  bool heard(MeshTime now, const Boot& boot);
+  // A beacon of it came: it is answered at boot.answer_at, unless an answer is due already, or this
+  // one brings nothing new, or there were too many answers lately. Who does not react to answers
+  // gets fewer.
+  Verdict on_beacon(MeshTime now, const Boot& boot);
+  // It is answered in any case, as far as the limit for all allows.
+  void challenge(MeshTime now, const Boot& boot);
   // The next one to be answered now.
   std::optional<Boot> take_due(MeshTime now);
   MeshTime next() const;
@@ -39,6 +47,7 @@ class UnconfirmedBoots {
 
  private:
   bool may_answer(MeshTime now);
+  Boot& find_or_add(const Boot& boot);
 
   std::vector<Boot> boots_;
   double answers_left_ = kAnswersAtOnce;
