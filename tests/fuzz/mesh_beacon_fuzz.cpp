@@ -8,6 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace warren;
+  using namespace warren::mesh;
   const std::span<const std::uint8_t> content(data, size);
   const auto beacon = read_beacon(content);
   if (!beacon) return 0;

@@ -10,6 +10,8 @@
 #include "transport/wire/frames.hpp"
 
 namespace warren::fuzz {
+
+using namespace mesh;
 namespace {
 
 // Of the golden vectors: packets among the seeds open.

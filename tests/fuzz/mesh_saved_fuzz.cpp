@@ -11,6 +11,8 @@
 #include "transport/delivery/scheduler.hpp"
 
 namespace warren::fuzz {
+
+using namespace mesh;
 namespace {
 
 constexpr std::size_t kDigestBytes = 16;

@@ -3,7 +3,7 @@
 
 #include "tests/sim/simulation.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 using std::chrono::milliseconds;
@@ -32,4 +32,4 @@ TEST_CASE("two nodes find each other and hand over a parcel") {
 }
 
 }  // namespace
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

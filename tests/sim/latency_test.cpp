@@ -3,7 +3,7 @@
 
 #include "tests/sim/measures.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 using std::chrono::milliseconds;
@@ -184,4 +184,4 @@ TEST_CASE("the rate follows steps of the link") {
 }
 
 }  // namespace
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -6,7 +6,7 @@
 
 #include "transport/wire/envelope.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 std::uint64_t mix(std::uint64_t z) {
@@ -177,4 +177,4 @@ std::size_t Ledger::map_packets_arrived(std::uint32_t at, MapClass priority) con
   return count == map_counts_.end() ? 0 : count->second;
 }
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

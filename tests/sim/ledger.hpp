@@ -12,7 +12,7 @@
 
 #include "transport/endpoint/endpoint.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 // What every payload of the simulation begins with, so that whoever gets it knows what it must be.
 struct Stamp {
@@ -84,4 +84,4 @@ class Ledger {
   std::size_t outstanding_bytes_ = 0;
 };
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

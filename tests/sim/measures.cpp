@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 LinkModelConfig network_of(const RadioLink& radio) {
   LinkModelConfig network;
@@ -63,4 +63,4 @@ double quantile(std::vector<double> values, double share) {
   return values[at];
 }
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -10,7 +10,7 @@
 
 #include "tests/sim/simulation.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 inline double in_seconds(Duration time) { return std::chrono::duration<double>(time).count(); }
 
@@ -44,4 +44,4 @@ auto median_of_five(Run&& run) {
 
 double quantile(std::vector<double> values, double share);
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -7,7 +7,7 @@
 
 #include "tools/world/random.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 using std::chrono::duration;
@@ -266,4 +266,4 @@ ScenarioOutcome run_scenario(std::uint64_t seed, Planted planted) {
   return Scenario(seed, planted).run();
 }
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

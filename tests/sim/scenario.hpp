@@ -7,7 +7,7 @@
 
 #include "tests/sim/simulation.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 struct ScenarioOutcome {
   std::vector<std::string> failures;
@@ -19,4 +19,4 @@ struct ScenarioOutcome {
 // and what was promised must be kept.
 ScenarioOutcome run_scenario(std::uint64_t seed, Planted planted = Planted::kNone);
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

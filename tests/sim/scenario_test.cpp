@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 // A thousand in all, in parts that ctest runs side by side. WARREN_SIM_SEED=N runs that one alone.
@@ -57,4 +57,4 @@ TEST_CASE("planted faults are found") {
 }
 
 }  // namespace
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

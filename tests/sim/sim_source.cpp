@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 std::optional<MapSource::Packet> SimSource::next_for(MemberId to, MapClass wanted,
                                                      std::size_t limit) {
@@ -63,4 +63,4 @@ std::uint64_t SimSource::open_bytes() const {
   return bytes;
 }
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

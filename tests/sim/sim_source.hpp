@@ -9,7 +9,7 @@
 #include "tests/sim/ledger.hpp"
 #include "transport/endpoint/endpoint.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 // A layer above with so many bytes of map for each member, or without end. What was lost goes
 // again. It outlives its node's restarts.
@@ -57,4 +57,4 @@ class SimSource : public MapSource {
   std::uint64_t group_bytes_ = 0;
 };
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -8,7 +8,7 @@
 #include "tools/world/random.hpp"
 #include "transport/wire/envelope.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 // A driver that is asked more often than this for each packet loops.
@@ -327,4 +327,4 @@ bool Simulation::run_until(MeshTime end, const std::function<bool()>& done) {
   return false;
 }
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

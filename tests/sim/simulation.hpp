@@ -14,7 +14,7 @@
 #include "tools/link/link_model.hpp"
 #include "transport/endpoint/endpoint.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 
 // Faults of the code under test, planted at its border, that the ledger must find.
 enum class Planted : std::uint8_t {
@@ -122,4 +122,4 @@ class Simulation {
   std::vector<std::uint8_t> planted_telemetry_;
 };
 
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -5,7 +5,7 @@
 #include "transport/wire/beacon.hpp"
 #include "transport/wire/envelope.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 using std::chrono::milliseconds;
@@ -194,4 +194,4 @@ TEST_CASE("one sealed packet reaches all who hear") {
 }
 
 }  // namespace
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -5,7 +5,7 @@
 
 #include "tests/sim/measures.hpp"
 
-namespace warren::sim {
+namespace warren::mesh::sim {
 namespace {
 
 using std::chrono::milliseconds;
@@ -76,4 +76,4 @@ TEST_CASE("10 and 100 Mbit/s") {
 }
 
 }  // namespace
-}  // namespace warren::sim
+}  // namespace warren::mesh::sim

@@ -14,6 +14,9 @@
 #include "transport/udp/mesh_runner.hpp"
 
 namespace warren {
+
+using namespace mesh;
+
 namespace {
 
 constexpr MemberId kSender{1};

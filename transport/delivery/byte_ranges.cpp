@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 
 void ByteRanges::add(NumberRange range) {
   if (range.first >= range.end) return;
@@ -58,4 +58,4 @@ std::uint64_t ByteRanges::size() const {
   return numbers;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -8,7 +8,7 @@
 
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // A set of numbers as ranges: in order, not empty, not touching.
 class ByteRanges {
@@ -30,4 +30,4 @@ class ByteRanges {
   std::vector<NumberRange> ranges_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

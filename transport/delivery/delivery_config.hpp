@@ -7,7 +7,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 struct UrgentConfig {
   int copies = 3;  // sent in any case, unless acknowledged
@@ -34,4 +34,4 @@ struct DeliveryConfig {
   ParcelConfig parcel;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace warren {
+namespace warren::mesh {
 
 // What was not sent or not handed on, and why. Sums over all peers if so used.
 struct OutboxCounts {
@@ -40,4 +40,4 @@ struct InboxCounts {
   std::uint64_t unexpected_frames = 0;    // of a kind that is not the inbox's
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 
 std::optional<Received> Inbox::on_frame(Frame&& frame) {
   if (auto* urgent = std::get_if<UrgentFrame>(&frame)) return on_urgent(std::move(*urgent));
@@ -53,4 +53,4 @@ void Inbox::on_peer_restarted() {
   parcels_.on_peer_restarted();
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

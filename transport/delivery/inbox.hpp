@@ -13,7 +13,7 @@
 #include "transport/delivery/telemetry_versions.hpp"
 #include "transport/delivery/urgent_window.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What an inbox hands on.
 struct UrgentReceived {
@@ -64,4 +64,4 @@ class Inbox {
   ParcelInbox parcels_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <variant>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 MeshTime due_now_if(bool any) { return any ? MeshTime::min() : kNever; }
@@ -82,4 +82,4 @@ void Outbox::on_peer_restarted() {
   parcels_.on_peer_restarted();
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -17,7 +17,7 @@
 #include "transport/delivery/telemetry_outbox.hpp"
 #include "transport/delivery/urgent_outbox.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Everything on its way to one peer, but map packets and the answers that the inbox owes. Each
 // ticket is handed back by on_acked() or on_lost(), perhaps several times: what was told lost may
@@ -69,4 +69,4 @@ class Outbox {
   ParcelOutbox parcels_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

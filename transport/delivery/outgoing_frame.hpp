@@ -4,7 +4,7 @@
 #include "transport/flow/ticket.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // A frame for the next packet, and what to hand back when that packet is acknowledged or lost.
 struct OutgoingFrame {
@@ -12,4 +12,4 @@ struct OutgoingFrame {
   Ticket ticket;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

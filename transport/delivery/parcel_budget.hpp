@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace warren {
+namespace warren::mesh {
 
 // Memory for the unfinished parcels of one direction, of all peers together.
 class ParcelBudget {
@@ -39,4 +39,4 @@ class ParcelBudget {
   std::uint64_t refused_ = 0;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

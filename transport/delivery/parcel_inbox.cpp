@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::size_t kAnswersMax = 1024;
@@ -227,4 +227,4 @@ void ParcelInbox::answer(std::uint32_t number) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -15,7 +15,7 @@
 #include "transport/delivery/parcel_budget.hpp"
 #include "transport/delivery/saved_parcels.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Parcels that come from one peer. Each is handed on once per life of ours, and after finish()
 // never again, as long as what save() gave is restored. All memory is charged until finish(): who
@@ -86,4 +86,4 @@ class ParcelInbox {
   std::set<std::uint32_t> answers_;          // numbers of which a state is due
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

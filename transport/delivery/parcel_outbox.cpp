@@ -5,7 +5,7 @@
 #include <cassert>
 #include <limits>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::uint32_t kNumberEnd = std::numeric_limits<std::uint32_t>::max();
@@ -297,4 +297,4 @@ void ParcelOutbox::finish(Parcels::iterator parcel) {
   ++counts_.parcels_delivered;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -21,7 +21,7 @@
 #include "transport/delivery/saved_parcels.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 enum class ParcelRefusal : std::uint8_t { kTooLarge, kFull };
 
@@ -111,4 +111,4 @@ class ParcelOutbox {
   bool oldest_next_ = true;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

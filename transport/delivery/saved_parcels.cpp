@@ -10,7 +10,7 @@
 #include "transport/wire/packet_reader.hpp"
 #include "transport/wire/packet_writer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x504D'5257;  // "WRMP"
@@ -174,4 +174,4 @@ std::optional<std::vector<SavedPeer>> read_saved_parcels_body(std::span<const st
   return peers;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

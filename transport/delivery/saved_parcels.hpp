@@ -9,7 +9,7 @@
 #include "transport/mesh_id.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What an outbox keeps through a restart.
 struct SavedOutgoing {
@@ -53,4 +53,4 @@ std::optional<std::vector<SavedPeer>> read_saved_parcels(std::span<const std::ui
 // The same without the digest at the end: for the fuzzer.
 std::optional<std::vector<SavedPeer>> read_saved_parcels_body(std::span<const std::uint8_t> body);
 
-}  // namespace warren
+}  // namespace warren::mesh

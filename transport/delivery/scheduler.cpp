@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // A path whose rate is not known yet.
@@ -198,4 +198,4 @@ void Scheduler::account(const Filling& filling) {
   settle(MapClass::kBacklog, config_.backlog_share);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

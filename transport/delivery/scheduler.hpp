@@ -14,7 +14,7 @@
 #include "transport/delivery/token_bucket.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Shares of the bytes sent to one peer. What parcels, fresh and backlog do not use goes to the
 // next; caps are never exceeded.
@@ -91,4 +91,4 @@ class Scheduler {
   std::array<bool, 2> source_empty_{};  // fresh, backlog: had nothing when asked
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

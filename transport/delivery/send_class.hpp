@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace warren {
+namespace warren::mesh {
 
 // What a frame is to the scheduler; first things first.
 enum class SendClass : std::uint8_t {
@@ -18,4 +18,4 @@ enum class SendClass : std::uint8_t {
 };
 inline constexpr std::size_t kSendClasses = 7;
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/delivery/telemetry_board.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 bool TelemetryBoard::set(std::uint16_t key, std::span<const std::uint8_t> bytes) {
   if (bytes.size() > TelemetryFrame::kBytesMax) return false;
@@ -12,4 +12,4 @@ bool TelemetryBoard::set(std::uint16_t key, std::span<const std::uint8_t> bytes)
   return true;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

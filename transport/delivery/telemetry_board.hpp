@@ -10,7 +10,7 @@
 
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // The latest value of each key: one board per node, read by the outboxes of all peers.
 class TelemetryBoard {
@@ -31,4 +31,4 @@ class TelemetryBoard {
   std::map<std::uint16_t, Value> values_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

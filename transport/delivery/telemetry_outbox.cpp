@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 OutgoingFrame frame_of(std::uint16_t key, const TelemetryBoard::Value& value) {
@@ -79,4 +79,4 @@ void TelemetryOutbox::wait(std::uint16_t key) {
   waiting_.push_back(key);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -11,7 +11,7 @@
 #include "transport/delivery/outgoing_frame.hpp"
 #include "transport/delivery/telemetry_board.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // To one peer, of each key the latest value only, read at the moment of sending. Keys take turns.
 class TelemetryOutbox {
@@ -46,4 +46,4 @@ class TelemetryOutbox {
   std::deque<std::uint16_t> waiting_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/delivery/telemetry_versions.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 TelemetryVersions::Verdict TelemetryVersions::take(std::uint16_t key, std::uint32_t version) {
   const auto known = latest_.find(key);
@@ -16,4 +16,4 @@ TelemetryVersions::Verdict TelemetryVersions::take(std::uint16_t key, std::uint3
   return Verdict::kNew;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <map>
 
-namespace warren {
+namespace warren::mesh {
 
 // The latest version of each key that came in one boot of the peer. Versions wrap around.
 class TelemetryVersions {
@@ -19,4 +19,4 @@ class TelemetryVersions {
   std::map<std::uint16_t, std::uint32_t> latest_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

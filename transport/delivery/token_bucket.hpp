@@ -6,7 +6,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // A share of a rate in bytes, saved up to `burst_bytes`. What is taken may exceed what is there by
 // one taking: then the bucket is in debt.
@@ -31,4 +31,4 @@ class TokenBucket {
   bool started_ = false;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 OutgoingFrame frame_of(std::uint32_t number, std::span<const std::uint8_t> bytes) {
@@ -63,4 +63,4 @@ void UrgentOutbox::drop_stale(MeshTime now) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -13,7 +13,7 @@
 #include "transport/delivery/outgoing_frame.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Sends each message in spaced copies until one is acknowledged or the message is stale. They may
 // arrive in another order.
@@ -48,4 +48,4 @@ class UrgentOutbox {
   std::deque<Message> messages_;  // by number
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/delivery/urgent_window.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 bool UrgentWindow::take(std::uint32_t number) {
   const std::uint32_t ahead = latest_ ? number - *latest_ : 0;
@@ -20,4 +20,4 @@ bool UrgentWindow::take(std::uint32_t number) {
   return true;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

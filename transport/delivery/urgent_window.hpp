@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace warren {
+namespace warren::mesh {
 
 // Which urgent messages of one boot have come. Numbers wrap around; one more than kWidth before
 // the latest counts as come.
@@ -21,4 +21,4 @@ class UrgentWindow {
   std::optional<std::uint32_t> latest_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

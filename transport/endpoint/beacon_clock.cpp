@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // Even times would let two nodes that collide once collide again and again.
@@ -41,4 +41,4 @@ void BeaconClock::hurry(MeshTime now) {
   next_ = std::min(next_, std::max(soon, sent_at_ + kHurriedLeast));
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -6,7 +6,7 @@
 #include "transport/endpoint/jitter.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // When this node beacons: often while it hears nobody or misses someone for whom it has something,
 // else so seldom that all beacons together cost kIdleBitsPerS, and less in a crowd, where others
@@ -42,4 +42,4 @@ class BeaconClock {
   MeshTime next_ = MeshTime::min();
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

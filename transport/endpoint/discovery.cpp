@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // A loss of this value says: I have not heard you for a while, say something.
@@ -239,4 +239,4 @@ std::size_t Discovery::memory_bytes() const {
   return sizeof(*this) + unconfirmed_.size() * sizeof(UnconfirmedBoots::Boot);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -12,7 +12,7 @@
 #include "transport/wire/beacon.hpp"
 #include "transport/wire/envelope.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Who is there: beacons out, beacons in, and the first packet to a boot that only its beacons have
 // told of. Into silence nothing goes but beacons.
@@ -56,4 +56,4 @@ class Discovery {
   std::optional<MeshTime> started_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -11,7 +11,7 @@
 #include "transport/endpoint/reception.hpp"
 #include "transport/endpoint/transmission.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 struct Endpoint::State {
   State(const EndpointConfig& config, std::shared_ptr<const KeySchedule> keys, MapSource& source)
@@ -168,4 +168,4 @@ bool Endpoint::restore(std::span<const std::uint8_t> saved) {
   return true;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -19,7 +19,7 @@
 #include "transport/wire/frames.hpp"
 #include "transport/wire/key_schedule.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 struct InterfaceConfig {
   std::size_t mtu_bytes = 1428;         // of an IP packet, headers included
@@ -166,4 +166,4 @@ class Endpoint {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

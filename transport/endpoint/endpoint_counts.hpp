@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace warren {
+namespace warren::mesh {
 
 // Why something that came in was not used.
 enum class Unused : std::uint8_t {
@@ -57,4 +57,4 @@ struct EndpointCounts {
   const ClassCounts& operator[](SentClass of) const { return sent[static_cast<std::size_t>(of)]; }
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

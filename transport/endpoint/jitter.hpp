@@ -5,7 +5,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Spreads what nodes do at the same time (SplitMix64, Steele 2014). Nothing secret depends on it.
 class Jitter {
@@ -28,4 +28,4 @@ class Jitter {
   std::uint64_t state_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

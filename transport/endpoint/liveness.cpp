@@ -5,7 +5,7 @@
 
 #include "transport/wire/beacon.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // A told period beyond these is nobody's: it must not keep a member up forever, nor let it flutter.
@@ -53,4 +53,4 @@ MeshTime Liveness::next() const {
   return std::min(heard_ + heard_limit(), hears_us_ + hears_us_limit()) + Duration(1);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -6,7 +6,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Whether a member is up: heard lately, and hears us. It goes down only after several beacons in a
 // row are missing, and then needs new evidence of both to come up.
@@ -42,4 +42,4 @@ class Liveness {
   bool up_ = false;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

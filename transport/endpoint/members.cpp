@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 
 Peer* Members::find(MemberId id) {
   const auto found = by_id_.find(id);
@@ -40,4 +40,4 @@ void Members::retire(BootId boot) {
   retired_order_.push_back(boot.bits);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -11,7 +11,7 @@
 
 #include "transport/endpoint/peer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // The peers by member id and by the boot they run in. Lives that have ended are remembered for a
 // while, so that their packets are known for what they are.
@@ -46,4 +46,4 @@ class Members {
   std::deque<std::uint64_t> retired_order_;  // oldest first
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

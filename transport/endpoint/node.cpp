@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // While nobody is in reach: beacons are so short and few that any figure does.
@@ -118,4 +118,4 @@ double Node::slowest_pace(MeshTime now, InterfaceIndex interface) const {
   return slowest.value_or(kUnknownPace);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -14,7 +14,7 @@
 #include "transport/endpoint/members.hpp"
 #include "transport/flow/node_pacer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What the parts of an endpoint share.
 struct Node {
@@ -62,4 +62,4 @@ struct Node {
   std::uint64_t free_pair_number = 0;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // What a packet is about to be.
@@ -155,4 +155,4 @@ std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, Packe
   return send(node, now, peer, draft);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

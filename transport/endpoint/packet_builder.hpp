@@ -5,7 +5,7 @@
 
 #include "transport/endpoint/node.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What may go into a packet beside acknowledgements and what is urgent.
 enum class PacketFill : std::uint8_t { kUrgentOnly, kEverything };
@@ -17,4 +17,4 @@ std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, Packe
 // What the scheduler wants to know of the path.
 SendState send_state(const Node& node, MeshTime now, const Peer& peer);
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 
 void PacketSize::on_passed(std::size_t ip_bytes) {
   if (ip_bytes <= kSmallBytes) {
@@ -30,4 +30,4 @@ bool PacketSize::wants_small_probe() const {
   return large_pass_ && large_lost_ >= kSuspicious && small_probes_ < large_lost_;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -5,7 +5,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Whether large packets pass on a path. Some radios silently pass only small ones: many large ones
 // lost in a row while small ones pass mean that. A large probe is tried now and then.
@@ -37,4 +37,4 @@ class PacketSize {
   MeshTime probe_at_{};
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -17,7 +17,7 @@
 #include "transport/mesh_address.hpp"
 #include "transport/mesh_id.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // With one boot of a peer, from its first pair packet on; it outlives any silence.
 struct Session {
@@ -89,4 +89,4 @@ struct Peer {
   static constexpr int kSilenceRtts = 4;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

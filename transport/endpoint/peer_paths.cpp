@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr double kStaleCost = 2.0;
@@ -99,4 +99,4 @@ std::optional<MeshPath> PeerPaths::current() const {
   return MeshPath{*current_, false, *paths_[*current_].address};
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -9,7 +9,7 @@
 #include "transport/mesh_address.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Where a peer can be reached: on each interface the address that its newest authentic pair packet
 // came from, and which of them is used. Beacons, which can be recorded and replayed, only say how
@@ -60,4 +60,4 @@ class PeerPaths {
   std::optional<InterfaceIndex> current_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 template <typename... Visits>
@@ -227,4 +227,4 @@ void Reception::relieve_memory() {
   if (oldest != nullptr) oldest->inbox.drop_partial();
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

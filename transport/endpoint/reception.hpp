@@ -6,7 +6,7 @@
 #include "transport/endpoint/discovery.hpp"
 #include "transport/endpoint/node.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What comes in: to whom it belongs, whether it is authentic and new, and what it says.
 class Reception {
@@ -33,4 +33,4 @@ class Reception {
   std::uint64_t refused_seen_ = 0;  // of the budget for what is received
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::uint64_t kBeaconsOvertaken = 8;
@@ -21,7 +21,7 @@ SessionKeys::SessionKeys(const KeySchedule& keys, BootId self, BootId peer,
       next_number_(first_number) {}
 
 std::vector<std::uint8_t> SessionKeys::seal(std::span<const std::uint8_t> content) {
-  return warren::seal(sealing_, {PacketType::kPair, self_, next_number_++}, content);
+  return mesh::seal(sealing_, {PacketType::kPair, self_, next_number_++}, content);
 }
 
 tl::expected<SessionKeys::Content, Unused> SessionKeys::open(const PacketHeader& header,
@@ -35,7 +35,7 @@ tl::expected<SessionKeys::Content, Unused> SessionKeys::open(const PacketHeader&
       (beacon && header.number + kBeaconsOvertaken < newest_beacon_end_)) {
     return tl::unexpected(Unused::kReplayed);
   }
-  auto content = warren::open(pair ? opening_ : group_, packet);
+  auto content = mesh::open(pair ? opening_ : group_, packet);
   if (!content) return tl::unexpected(Unused::kNotAuthentic);
   window.mark(header.number);
   if (beacon) newest_beacon_end_ = std::max(newest_beacon_end_, header.number + 1);
@@ -43,4 +43,4 @@ tl::expected<SessionKeys::Content, Unused> SessionKeys::open(const PacketHeader&
   return *std::move(content);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -13,7 +13,7 @@
 #include "transport/wire/key_schedule.hpp"
 #include "transport/wire/replay_window.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What opens and seals the packets between this life of ours and one life of a peer. Each packet
 // of the peer opens once.
@@ -54,4 +54,4 @@ class SessionKeys {
   ReplayWindow group_window_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

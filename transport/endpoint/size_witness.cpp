@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 
 void SizeWitness::on_sent(MeshTime now, std::uint64_t number, std::size_t ip_bytes) {
   if (packets_.size() == kPacketsMax) packets_.pop_front();
@@ -35,4 +35,4 @@ void SizeWitness::on_time(MeshTime now, Duration rtt, PacketSize& size) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

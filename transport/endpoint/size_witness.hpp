@@ -9,7 +9,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Watches which of the latest packets on a path arrived, by their size alone.
 class SizeWitness {
@@ -33,4 +33,4 @@ class SizeWitness {
   std::deque<Packet> packets_;  // by number
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -5,7 +5,7 @@
 
 #include "transport/endpoint/packet_builder.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // The pacer's name for packets that go to all. No member has it.
@@ -207,4 +207,4 @@ MeshTime Transmission::next(MeshTime now) const {
   return next;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -10,7 +10,7 @@
 
 #include "transport/endpoint/node.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What goes to the peers and when: who has something that may not wait, whose turn it is, what each
 // of them waits for. Work per packet grows with the logarithm of the number of peers.
@@ -46,4 +46,4 @@ class Transmission {
   std::vector<bool> group_alone_;          // would be awake, but nobody is in reach
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

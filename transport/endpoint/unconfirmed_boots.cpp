@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // A genuine boot that hears us reacts to the first answer, and through heavy loss to one of eight.
@@ -76,4 +76,4 @@ void UnconfirmedBoots::forget(BootId boot) {
   std::erase_if(boots_, [&](const Boot& known) { return known.boot == boot; });
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -10,7 +10,7 @@
 #include "transport/mesh_id.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Boots that only beacons have told of. Whoever recorded the beacons of an earlier life can send
 // them again, so they change nothing: each gets an answer now and then that only the genuine boot
@@ -54,4 +54,4 @@ class UnconfirmedBoots {
   MeshTime refilled_ = MeshTime::min();
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr double kStretchMin = 0.2;  // jitter may turn the order about
@@ -67,4 +67,4 @@ std::optional<ArrivalRate::Measure> ArrivalRate::since(const Mark& from) const {
   return measure;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -10,7 +10,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // The rate at which consecutive packets arrive, beside that at which they were sent. Packets lost
 // between others count for neither, so the figure is right at any random loss, and a queue that
@@ -56,4 +56,4 @@ class ArrivalRate {
   Mark total_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

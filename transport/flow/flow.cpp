@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -157,4 +157,4 @@ std::optional<std::vector<Ticket>> Flow::take_repeat(MeshTime now) {
 
 std::size_t Flow::memory_bytes() const { return sizeof(*this) + sent_.memory_bytes(); }
 
-}  // namespace warren
+}  // namespace warren::mesh

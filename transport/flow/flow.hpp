@@ -15,7 +15,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // All that is to be known about the traffic with one peer: what was sent and what became of it,
 // what came and must be acknowledged, how fast the link is. One object per peer and boot of it.
@@ -96,4 +96,4 @@ class Flow {
   double repeat_bytes_ = 0.0;  // still allowed
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

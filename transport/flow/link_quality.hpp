@@ -5,7 +5,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 struct LinkQuality {
   std::optional<Duration> rtt;  // none: not measured yet
@@ -15,4 +15,4 @@ struct LinkQuality {
   Duration queue{};             // delay that our packets find waiting in the link's queue
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr Duration kBurst = std::chrono::milliseconds{2};
@@ -73,4 +73,4 @@ void NodePacer::charge(Peer peer, Duration airtime) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

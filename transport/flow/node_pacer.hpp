@@ -8,7 +8,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // When the next packet may go out on an interface, and to which peer. A packet to a peer costs the
 // airtime bytes / pace of its link; all peers share the interface, and those that want to send get
@@ -49,4 +49,4 @@ class NodePacer {
   MeshTime ready_at_{};
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -99,4 +99,4 @@ std::optional<Duration> QueueDelay::least_rtt() const {
   return value;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

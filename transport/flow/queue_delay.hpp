@@ -9,7 +9,7 @@
 #include "transport/flow/sent_packets.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // How long packets wait in the link's queue, from the delay one way (the receiver's clock minus
 // ours: only changes mean something) against the least of the last 10 to 20 s. Round trips bound
@@ -62,4 +62,4 @@ class QueueDelay {
   MeshTime last_empty_{};
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

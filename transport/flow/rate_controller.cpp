@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -279,4 +279,4 @@ std::size_t RateController::packet_bytes() const {
                     config_.packet_bytes_max);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -11,7 +11,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // How fast to send to one peer. Loss is not congestion; delay that grows is. While a small queue
 // stands in the link, the spacing of arrivals is the link's rate; while none does, the rate is
@@ -83,4 +83,4 @@ class RateController {
   MeshTime last_empty_{};
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

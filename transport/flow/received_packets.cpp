@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -140,4 +140,4 @@ std::optional<AckFrame> ReceivedPackets::take_ack(MeshTime now) {
   return ack;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -10,7 +10,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What came from one peer, and when it is to be told so. Acknowledgements are never acknowledged;
 // each is whole in itself, so any of them may be lost.
@@ -71,4 +71,4 @@ class ReceivedPackets {
   double loss_ = 0.0;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -274,4 +274,4 @@ std::size_t SentPackets::memory_bytes() const {
   return bytes;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

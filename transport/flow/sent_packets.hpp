@@ -11,7 +11,7 @@
 #include "transport/mesh_time.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What the acknowledgements of one peer say, in figures; sums run from the first packet on.
 struct AckReport {
@@ -135,4 +135,4 @@ class SentPackets {
   double loss_ = 0.0;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

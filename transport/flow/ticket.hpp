@@ -6,7 +6,7 @@
 
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // What a packet carried, as the one who filled it wants to hear of it when the packet is
 // acknowledged or lost. Flow only keeps tickets.
@@ -37,4 +37,4 @@ struct MapTicket {
 using Ticket =
     std::variant<UrgentTicket, TelemetryTicket, FragmentTicket, ParcelStateTicket, MapTicket>;
 
-}  // namespace warren
+}  // namespace warren::mesh

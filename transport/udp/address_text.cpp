@@ -9,7 +9,7 @@
 
 #include "transport/udp/socket_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 std::optional<std::uint16_t> parse_port(std::string_view text) {
@@ -55,4 +55,4 @@ std::string to_text(const MeshAddress& address) {
   return text.append(1, ':').append(std::to_string(address.port));
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -7,10 +7,10 @@
 
 #include "transport/mesh_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // "10.9.0.2:7717" or "[fe80::1]:7717"; nothing if it is neither. Names are not looked up.
 std::optional<MeshAddress> parse_mesh_address(std::string_view text);
 std::string to_text(const MeshAddress& address);
 
-}  // namespace warren
+}  // namespace warren::mesh

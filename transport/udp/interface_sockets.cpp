@@ -7,7 +7,7 @@
 
 #include "transport/udp/socket_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // So that reading does not keep the node from sending: the rest comes after the next turn.
@@ -141,4 +141,4 @@ std::uint16_t InterfaceSockets::port() const {
   return ipv6_.is_open() ? ipv6_.own->socket().port() : std::uint16_t{0};
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

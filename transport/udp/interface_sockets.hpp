@@ -17,7 +17,7 @@
 #include "transport/udp/socket_counts.hpp"
 #include "transport/udp/socket_reader.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // The sockets of one interface: per address family one for the node itself and one for the group.
 // They are made anew whenever the interface, its carrier or its addresses come back, as that may
@@ -83,4 +83,4 @@ class InterfaceSockets {
   std::string problem_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

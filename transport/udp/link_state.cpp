@@ -8,7 +8,7 @@
 
 #include "transport/udp/socket_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using Addresses = std::unique_ptr<ifaddrs, decltype(&freeifaddrs)>;
@@ -46,4 +46,4 @@ LinkState read_link_state(const std::string& name) {
   return state;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

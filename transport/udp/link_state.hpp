@@ -6,7 +6,7 @@
 
 #include "transport/mesh_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // A network interface as it is now.
 struct LinkState {
@@ -21,4 +21,4 @@ struct LinkState {
 
 LinkState read_link_state(const std::string& name);
 
-}  // namespace warren
+}  // namespace warren::mesh

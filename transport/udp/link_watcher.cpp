@@ -10,7 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace warren {
+namespace warren::mesh {
 
 LinkWatcher::LinkWatcher(asio::io_context& io, std::function<void()> on_change)
     : socket_(io), on_change_(std::move(on_change)) {}
@@ -55,4 +55,4 @@ void LinkWatcher::drain() {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

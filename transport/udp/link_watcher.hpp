@@ -7,7 +7,7 @@
 #include <asio/io_context.hpp>
 #include <asio/posix/stream_descriptor.hpp>
 
-namespace warren {
+namespace warren::mesh {
 
 // Says when any network interface or address of this machine has changed (rtnetlink).
 class LinkWatcher : public std::enable_shared_from_this<LinkWatcher> {
@@ -26,4 +26,4 @@ class LinkWatcher : public std::enable_shared_from_this<LinkWatcher> {
   std::function<void()> on_change_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

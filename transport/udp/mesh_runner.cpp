@@ -8,7 +8,7 @@
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // So that sending does not keep the node from reading: the rest goes after the next turn.
@@ -138,4 +138,4 @@ MeshTime MeshRunner::now() {
   return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

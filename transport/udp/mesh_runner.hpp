@@ -9,7 +9,7 @@
 #include "transport/endpoint/endpoint.hpp"
 #include "transport/udp/mesh_sockets.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // One endpoint on real sockets: datagrams in and out, its deadlines, its events. Everything happens
 // in the thread that runs the io_context. Events are handed over before anything more is sent, so
@@ -45,4 +45,4 @@ class MeshRunner {
   std::shared_ptr<State> state_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

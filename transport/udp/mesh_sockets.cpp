@@ -10,7 +10,7 @@
 #include "transport/udp/interface_sockets.hpp"
 #include "transport/udp/link_watcher.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // How often an interface is tried that could not be opened.
@@ -118,4 +118,4 @@ const SocketCounts& MeshSockets::counts(InterfaceIndex interface) const {
   return state_->interfaces.at(interface)->counts();
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -14,7 +14,7 @@
 #include "transport/udp/mesh_sockets_config.hpp"
 #include "transport/udp/socket_counts.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // The UDP sockets of a node. Each interface has its own, bound to it, so that what is meant for it
 // leaves there only. Interfaces that come, go or change addresses are followed; nothing throws. All
@@ -48,4 +48,4 @@ class MeshSockets {
   std::shared_ptr<State> state_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

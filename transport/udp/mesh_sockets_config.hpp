@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace warren {
+namespace warren::mesh {
 
 // How one network interface is used. It need not exist yet, and may come and go.
 struct SocketInterface {
@@ -30,4 +30,4 @@ struct MeshSocketsConfig {
   bool group_loop = false;  // other nodes on this host hear the group datagrams too
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

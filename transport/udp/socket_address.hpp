@@ -10,7 +10,7 @@
 
 #include "transport/mesh_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 inline constexpr std::array<std::uint8_t, 12> kMappedPrefix{0, 0, 0, 0, 0,    0,
                                                             0, 0, 0, 0, 0xFF, 0xFF};
@@ -59,4 +59,4 @@ inline MeshAddress mesh_address(const sockaddr_in6& address) {
   return out;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

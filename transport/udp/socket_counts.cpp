@@ -3,7 +3,7 @@
 
 #include <cerrno>
 
-namespace warren {
+namespace warren::mesh {
 
 void count_send_failure(SocketCounts& counts, int error) {
   switch (error) {
@@ -33,4 +33,4 @@ void count_send_failure(SocketCounts& counts, int error) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

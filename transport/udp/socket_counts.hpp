@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace warren {
+namespace warren::mesh {
 
 // Of one interface. A datagram that could not be sent is as if the radio had lost it.
 struct SocketCounts {
@@ -26,4 +26,4 @@ struct SocketCounts {
 // By the errno of a send.
 void count_send_failure(SocketCounts& counts, int error);
 
-}  // namespace warren
+}  // namespace warren::mesh

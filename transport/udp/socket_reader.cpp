@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace warren {
+namespace warren::mesh {
 
 SocketReader::SocketReader(asio::io_context& io, UdpSocket socket, OnReadable on_readable)
     : socket_(std::move(socket)),
@@ -29,4 +29,4 @@ void SocketReader::stop() {
   socket_.close();
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -9,7 +9,7 @@
 
 #include "transport/udp/udp_socket.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Says when a socket has something to read, until it is stopped.
 class SocketReader : public std::enable_shared_from_this<SocketReader> {
@@ -31,4 +31,4 @@ class SocketReader : public std::enable_shared_from_this<SocketReader> {
   bool stopped_ = false;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -8,7 +8,7 @@
 
 #include "transport/udp/socket_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // At 100 Mbit/s this is 80 ms that the process may be kept from reading.
@@ -182,4 +182,4 @@ tl::expected<UdpSocket::Received, int> UdpSocket::receive(std::span<std::uint8_t
   return Received{address, static_cast<std::size_t>(got)};
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -12,7 +12,7 @@
 
 #include "transport/mesh_address.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Where a UDP socket belongs.
 struct SocketPlace {
@@ -67,4 +67,4 @@ class UdpSocket {
   int descriptor_ = -1;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

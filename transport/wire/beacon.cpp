@@ -7,7 +7,7 @@
 #include "transport/wire/packet_reader.hpp"
 #include "transport/wire/packet_writer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::size_t kHeardBytes = 5;
@@ -51,4 +51,4 @@ std::optional<Beacon> read_beacon(std::span<const std::uint8_t> content) {
   return beacon;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -8,7 +8,7 @@
 
 #include "transport/mesh_id.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // "I am here, and these I hear." Sealed with the sender's group key.
 struct Beacon {
@@ -30,4 +30,4 @@ struct Beacon {
 std::vector<std::uint8_t> encode(const Beacon& beacon);
 std::optional<Beacon> read_beacon(std::span<const std::uint8_t> content);
 
-}  // namespace warren
+}  // namespace warren::mesh

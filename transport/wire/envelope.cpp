@@ -9,7 +9,7 @@
 #include "transport/wire/packet_reader.hpp"
 #include "transport/wire/packet_writer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
@@ -71,4 +71,4 @@ std::optional<std::vector<std::uint8_t>> open(const Key& key,
   return content;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -10,7 +10,7 @@
 #include "transport/mesh_id.hpp"
 #include "transport/wire/key_schedule.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 enum class PacketType : std::uint8_t { kBeacon, kPair, kGroup };
 
@@ -37,4 +37,4 @@ std::vector<std::uint8_t> seal(const Key& key, const PacketHeader& header,
 // The content; nothing if the packet was not sealed so.
 std::optional<std::vector<std::uint8_t>> open(const Key& key, std::span<const std::uint8_t> packet);
 
-}  // namespace warren
+}  // namespace warren::mesh

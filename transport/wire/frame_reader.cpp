@@ -6,7 +6,7 @@
 #include "transport/wire/frames.hpp"
 #include "transport/wire/packet_reader.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 template <typename T>
@@ -228,4 +228,4 @@ std::optional<std::vector<Frame>> read_frames(std::span<const std::uint8_t> cont
   return frames;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -7,7 +7,7 @@
 #include "transport/wire/envelope.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // First byte of a frame. Zero is none: content that was never written is not read as frames.
 enum class FrameType : std::uint8_t {
@@ -39,4 +39,4 @@ static_assert(ParcelFrame::kBytesMax < 1U << kParcelSpanBits);
 // Microseconds: an hour and more.
 constexpr std::uint64_t kAckDelayMaxUs = 0xFFFFFFFF;
 
-}  // namespace warren
+}  // namespace warren::mesh

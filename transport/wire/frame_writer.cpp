@@ -8,7 +8,7 @@
 #include "transport/wire/frames.hpp"
 #include "transport/wire/packet_writer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // Takes what PacketWriter takes, and only counts it.
@@ -156,4 +156,4 @@ void append(std::vector<std::uint8_t>& content, const Frame& frame) {
   std::visit([&](const auto& kind) { write(writer, kind); }, frame);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -11,7 +11,7 @@
 #include "transport/mesh_id.hpp"
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // Numbers from `first` up to, not including, `end`.
 struct NumberRange {
@@ -123,4 +123,4 @@ void append(std::vector<std::uint8_t>& content, const Frame& frame);
 // time and memory by the content's size.
 std::optional<std::vector<Frame>> read_frames(std::span<const std::uint8_t> content);
 
-}  // namespace warren
+}  // namespace warren::mesh

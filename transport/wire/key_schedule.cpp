@@ -11,7 +11,7 @@
 
 #include "transport/wire/packet_writer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 // BLAKE2b-256, keyed with the fleet's secret, of the label and the boots. No label is a prefix of
@@ -41,4 +41,4 @@ Key PresharedKeys::pair_key(BootId sender, BootId receiver) const {
   return derive(fleet_key_, "warren mesh 1 pair", {sender, receiver});
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -6,7 +6,7 @@
 
 #include "transport/mesh_id.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 using Key = std::array<std::uint8_t, 32>;
 
@@ -32,4 +32,4 @@ class PresharedKeys : public KeySchedule {
   Key fleet_key_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

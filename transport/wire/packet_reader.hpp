@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace warren {
+namespace warren::mesh {
 
 // Takes fields from the front of a packet, as PacketWriter put them. Nothing when the bytes end
 // early, when a number is not in its shortest form or when it is above the caller's limit.
@@ -50,4 +50,4 @@ class PacketReader {
   std::span<const std::uint8_t> rest_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace warren {
+namespace warren::mesh {
 
 // Appends fields to a packet: fixed ones little endian, numbers as LEB128 (7 bits per byte, lowest
 // first, in as few bytes as can be).
@@ -39,4 +39,4 @@ constexpr std::size_t number_bytes(std::uint64_t value) {
   return bytes;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::uint64_t kWordBits = 64;
@@ -31,4 +31,4 @@ void ReplayWindow::mark(std::uint64_t number) {
   end_ = std::max(end_, number + 1);
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace warren {
+namespace warren::mesh {
 
 // Which packet numbers of one key have come: each is taken once, and none that is kWidth or more
 // older than the latest.
@@ -21,4 +21,4 @@ class ReplayWindow {
   std::uint64_t end_ = 0;  // one more than the latest
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

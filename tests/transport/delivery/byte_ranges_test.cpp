@@ -7,6 +7,7 @@
 #include <rapidcheck.h>
 
 using namespace warren;
+using namespace warren::mesh;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "transport/delivery/outbox.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 using namespace std::chrono_literals;
 
 namespace {

@@ -8,7 +8,8 @@
 #include "tests/transport/delivery/toy_channel.hpp"
 
 using namespace warren;
-using namespace warren::test;
+using namespace warren::mesh;
+using namespace warren::mesh::test;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include "transport/delivery/parcel_outbox.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 using namespace std::chrono_literals;
 
 namespace {

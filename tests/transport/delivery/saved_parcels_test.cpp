@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 using namespace warren;
+using namespace warren::mesh;
 
 namespace {
 

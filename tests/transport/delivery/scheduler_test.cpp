@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace warren;
+using namespace warren::mesh;
 using namespace std::chrono_literals;
 
 namespace {

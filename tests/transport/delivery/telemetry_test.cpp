@@ -10,6 +10,7 @@
 #include "transport/delivery/telemetry_versions.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 using namespace std::chrono_literals;
 
 namespace {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 ToyPair::ToyPair(const DeliveryConfig& first, const DeliveryConfig& second, std::uint64_t seed)
     : random_(seed), nodes_{ToyNode(first, seed + 1), ToyNode(second, seed + 2)} {}
@@ -102,4 +102,4 @@ Duration ToyPair::some_delay() {
   return Duration(static_cast<Duration::rep>(below(random_, most) + 1));
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

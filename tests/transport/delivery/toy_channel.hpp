@@ -8,7 +8,7 @@
 
 #include "tests/transport/delivery/toy_node.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 struct ChannelFaults {
   double loss = 0.0;
@@ -71,4 +71,4 @@ class ToyPair {
   std::uint64_t packets_sent_ = 0;
 };
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

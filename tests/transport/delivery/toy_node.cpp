@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 namespace {
 
@@ -143,4 +143,4 @@ void ToyNode::on_peer_restarted() {
   scheduler_->wake();
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

@@ -15,7 +15,7 @@
 #include "transport/delivery/saved_parcels.hpp"
 #include "transport/delivery/scheduler.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 using Random = std::mt19937_64;
 
@@ -79,4 +79,4 @@ class ToyNode {
   std::unique_ptr<Scheduler> scheduler_;
 };
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

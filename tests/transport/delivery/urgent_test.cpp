@@ -10,6 +10,7 @@
 #include "transport/delivery/urgent_window.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 using namespace std::chrono_literals;
 
 namespace {

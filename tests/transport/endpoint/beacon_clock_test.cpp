@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -62,4 +62,4 @@ TEST_CASE("hurry is soon, and no flood") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

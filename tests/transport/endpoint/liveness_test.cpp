@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -80,4 +80,4 @@ TEST_CASE("no told period keeps a member up forever") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

@@ -5,7 +5,7 @@
 
 #include "transport/endpoint/jitter.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::seconds;
@@ -68,4 +68,4 @@ TEST_CASE("independent loss of 40 % is hardly ever taken for it") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

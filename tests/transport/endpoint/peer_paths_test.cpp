@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -73,4 +73,4 @@ TEST_CASE("of two paths that are heard the one that loses less is used") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

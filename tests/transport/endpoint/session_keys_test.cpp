@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr BootId kA{1};
@@ -61,4 +61,4 @@ TEST_CASE("an overtaken packet is not the newest") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

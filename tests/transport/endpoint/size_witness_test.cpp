@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::seconds;
@@ -44,4 +44,4 @@ TEST_CASE("nothing is heard of large ones for long: small probes are worth while
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -76,4 +76,4 @@ TEST_CASE("a confirmed boot is forgotten") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

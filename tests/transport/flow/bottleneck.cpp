@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warren {
+namespace warren::mesh {
 
 double Bottleneck::rate_at(MeshTime time) const {
   double rate = config_.rate_bit_s.front().second;
@@ -60,4 +60,4 @@ BottleneckPacket Bottleneck::take_arrival() {
   return packet;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

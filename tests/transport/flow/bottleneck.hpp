@@ -12,7 +12,7 @@
 
 #include "transport/mesh_time.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 // One direction of a link in virtual time: a queue before a transmitter, then the air, where
 // packets are lost after they used it.
@@ -72,4 +72,4 @@ class Bottleneck {
   std::size_t packets_overflowed_ = 0;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

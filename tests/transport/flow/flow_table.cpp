@@ -9,9 +9,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-void row(const std::string& filter, const std::string& name, const warren::LinkCase& link) {
+void row(const std::string& filter, const std::string& name, const warren::mesh::LinkCase& link) {
   if (name.find(filter) == std::string::npos) return;
-  const warren::LinkOutcome outcome = warren::median_of_five(link);
+  const warren::mesh::LinkOutcome outcome = warren::mesh::median_of_five(link);
   std::printf(
       "%-34s efficiency %5.1f %%  oversend %.3f  queue %5.1f ms, p99 %5.1f  acks %4.1f %%\n",
       name.c_str(), 100 * outcome.efficiency, outcome.oversend, 1000 * outcome.queue_mean_s,

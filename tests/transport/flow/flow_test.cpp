@@ -7,7 +7,7 @@
 
 #include "transfer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -214,4 +214,4 @@ TEST_CASE("the same seed gives the same run") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

@@ -8,7 +8,7 @@
 
 #include "transfer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 inline double seconds_of(Duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -87,4 +87,4 @@ inline LinkOutcome median_of_five(const LinkCase& link) {
           middle(&LinkOutcome::ack_share)};
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

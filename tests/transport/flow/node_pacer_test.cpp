@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -97,4 +97,4 @@ TEST_CASE("a peer that wants nothing is never named") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

@@ -3,7 +3,7 @@
 
 #include "measure.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -57,4 +57,4 @@ TEST_CASE("two flows share a link fairly, whoever came first, and keep its queue
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

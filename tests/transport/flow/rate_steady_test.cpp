@@ -3,7 +3,7 @@
 
 #include "measure.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -106,4 +106,4 @@ TEST_CASE("buffers of a few packets, in which no delay shows") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

@@ -6,7 +6,7 @@
 
 #include "measure.hpp"
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -101,4 +101,4 @@ TEST_CASE("clocks that drift and step do no harm") {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

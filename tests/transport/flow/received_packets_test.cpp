@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
@@ -108,4 +108,4 @@ TEST_CASE("the loss of the peer's packets is told, numbers before the first not 
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 using std::chrono::hours;
@@ -155,4 +155,4 @@ TEST_CASE("a packet in flight is offered for repetition once, the oldest first")
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh

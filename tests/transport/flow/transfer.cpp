@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-namespace warren {
+namespace warren::mesh {
 namespace {
 
 constexpr std::size_t kAckPacketBytes = 28 + 32 + 20;
@@ -189,4 +189,4 @@ std::optional<MeshTime> Transfer::first_arrival_after(Duration time, std::size_t
   return *found;
 }
 
-}  // namespace warren
+}  // namespace warren::mesh

@@ -13,7 +13,7 @@
 #include "transport/flow/flow.hpp"
 #include "transport/flow/node_pacer.hpp"
 
-namespace warren {
+namespace warren::mesh {
 
 struct TransferConfig {
   BottleneckConfig there, back;
@@ -108,4 +108,4 @@ class Transfer {
   std::vector<Waited> waited_;
 };
 
-}  // namespace warren
+}  // namespace warren::mesh

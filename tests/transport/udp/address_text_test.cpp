@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 using namespace warren;
+using namespace warren::mesh;
 
 TEST_CASE("addresses are read and written the same way") {
   for (const char* text : {"10.9.0.2:7717", "[fe80::1]:1", "[2001:db8::5:6]:65535"}) {

@@ -9,6 +9,7 @@
 #include "tests/transport/udp/runner_node.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 using test::CabledNamespaces;
 using test::count_of;
 using test::RunnerNode;

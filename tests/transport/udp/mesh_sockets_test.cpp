@@ -14,6 +14,7 @@
 #include "transport/udp/address_text.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 using test::CabledNamespaces;
 using test::NetworkNamespace;
 using test::SocketNode;

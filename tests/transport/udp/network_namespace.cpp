@@ -14,7 +14,7 @@
 
 #include "transport/udp/link_state.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 namespace {
 
 constexpr const char* kOwn = "/proc/thread-self/ns/net";
@@ -95,4 +95,4 @@ std::optional<CabledNamespaces> CabledNamespaces::make() {
   return CabledNamespaces{std::move(*first), std::move(*second)};
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

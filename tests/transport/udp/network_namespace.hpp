@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 // A network of its own, without a name: it goes with the object, whatever happens.
 class NetworkNamespace {
@@ -36,4 +36,4 @@ struct CabledNamespaces {
   static std::optional<CabledNamespaces> make();
 };
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

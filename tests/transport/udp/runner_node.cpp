@@ -6,7 +6,7 @@
 
 #include <asio/post.hpp>
 
-namespace warren::test {
+namespace warren::mesh::test {
 namespace {
 
 constexpr std::chrono::seconds kPatience{20};
@@ -62,4 +62,4 @@ bool RunnerNode::until(const std::function<bool(const std::vector<MeshEvent>&)>&
   return changed_.wait_for(lock, kPatience, [&] { return condition(events_); });
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

@@ -15,7 +15,7 @@
 #include "tests/transport/udp/network_namespace.hpp"
 #include "transport/udp/mesh_runner.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 // Offers map packets of the wanted size, so many, to whoever asks; counts what came of them.
 class CountedMap : public MapSource {
@@ -59,4 +59,4 @@ std::size_t count_of(const std::vector<MeshEvent>& events) {
   return count;
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

@@ -7,7 +7,7 @@
 
 #include <asio/post.hpp>
 
-namespace warren::test {
+namespace warren::mesh::test {
 namespace {
 
 constexpr std::chrono::seconds kPatience{10};
@@ -97,4 +97,4 @@ std::uint16_t SocketNode::port() {
   return port;
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

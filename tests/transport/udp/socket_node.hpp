@@ -15,7 +15,7 @@
 #include "tests/transport/udp/network_namespace.hpp"
 #include "transport/udp/mesh_sockets.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 // The sockets of a node, on a thread of its own in a namespace.
 class SocketNode {
@@ -53,4 +53,4 @@ class SocketNode {
   std::thread thread_;
 };
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

@@ -7,6 +7,7 @@
 #include "tests/transport/wire/random_frames.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 
 TEST_CASE("a beacon comes back from its bytes") {
   CHECK(rc::check("round trip", [](std::uint64_t seed) {

@@ -9,6 +9,7 @@
 #include "tests/transport/wire/random_frames.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 
 namespace {
 

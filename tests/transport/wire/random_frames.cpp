@@ -5,7 +5,7 @@
 
 #include "transport/wire/envelope.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 namespace {
 
 std::uint32_t any32(Random& random) {
@@ -121,4 +121,4 @@ Beacon random_beacon(Random& random) {
   return beacon;
 }
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

@@ -8,7 +8,7 @@
 #include "transport/wire/beacon.hpp"
 #include "transport/wire/frames.hpp"
 
-namespace warren::test {
+namespace warren::mesh::test {
 
 using Random = std::mt19937_64;
 
@@ -21,4 +21,4 @@ Frame random_frame(Random& random);
 Frame random_inner_frame(Random& random);
 Beacon random_beacon(Random& random);
 
-}  // namespace warren::test
+}  // namespace warren::mesh::test

@@ -10,6 +10,7 @@
 #include "transport/wire/envelope.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 
 namespace {
 

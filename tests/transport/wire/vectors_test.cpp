@@ -12,6 +12,7 @@
 #include "transport/wire/frames.hpp"
 
 using namespace warren;
+using namespace warren::mesh;
 
 namespace {
 
