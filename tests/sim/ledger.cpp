@@ -141,13 +141,13 @@ void Ledger::on_map_acknowledged(MeshTime now, std::uint32_t from, std::uint64_t
   }
 }
 
-void Ledger::on_datagram(MeshTime now, std::uint32_t to, std::span<const std::uint8_t> bytes) {
+void Ledger::on_datagram(MeshTime now, std::optional<BootId> receiver,
+                         std::span<const std::uint8_t> bytes) {
   const auto header = read_packet_header(bytes);
   if (!header) return fail(now, "a datagram without a header was sent");
-  const bool pair = header->type == PacketType::kPair;
   const std::uint64_t name =
       mix(mix(mix(header->sender.bits) ^ header->number) ^
-          (static_cast<std::uint64_t>(header->type) << 32) ^ (pair ? to + 1 : 0));
+          (static_cast<std::uint64_t>(header->type) << 32) ^ receiver.value_or(BootId{}).bits);
   const auto [known, first] = datagrams_.emplace(name, digest(bytes));
   if (!first && known->second != digest(bytes)) fail(now, "a nonce was used twice");
 }

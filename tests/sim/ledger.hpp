@@ -50,8 +50,9 @@ class Ledger {
                  std::span<const std::uint8_t> bytes);
   void on_map(MeshTime now, std::uint32_t at, std::span<const std::uint8_t> bytes);
   void on_map_acknowledged(MeshTime now, std::uint32_t from, std::uint64_t ticket);
-  // A datagram with its sender's boot and number, to a station.
-  void on_datagram(MeshTime now, std::uint32_t to, std::span<const std::uint8_t> bytes);
+  // A datagram that is sent, and, for one sealed for a pair, the boot that it is sealed for.
+  void on_datagram(MeshTime now, std::optional<BootId> receiver,
+                   std::span<const std::uint8_t> bytes);
   // The node lost its store: what it had sent or received may be lost or come again.
   void on_store_lost(std::uint32_t node);
   void on_memory(MeshTime now, std::uint32_t node, std::size_t bytes, std::size_t bound);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include "tests/sim/measures.hpp"
@@ -52,7 +54,7 @@ double reunion(std::size_t nodes, std::size_t split, Duration blackout, double l
   return in_seconds(simulation.now() - healed);
 }
 
-void check(const char* name, std::size_t nodes, Duration blackout, double loss, int runs,
+void check(const std::string& name, std::size_t nodes, Duration blackout, double loss, int runs,
            double p99) {
   std::vector<double> times;
   for (int i = 1; i <= runs; ++i) {

@@ -13,6 +13,8 @@ struct ScenarioOutcome {
   std::vector<std::string> failures;
   std::string story;     // what the links were and what was done to the nodes
   double seconds = 0.0;  // of virtual time
+  // How much longer it took than 1.25 times the theoretical time and 2 s; 0: it did not.
+  double late_s = 0.0;
 };
 
 // A small fleet, links, loads and troubles, all drawn from the seed. Afterwards everything heals,

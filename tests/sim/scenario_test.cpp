@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/sim/scenario.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -12,20 +13,32 @@ namespace {
 // A thousand in all, in parts that ctest runs side by side. WARREN_SIM_SEED=N runs that one alone.
 constexpr std::uint64_t kSeedsPerPart = 250;
 
-void run(std::uint64_t seed) {
+// How much later than the target it was done, in seconds.
+double run(std::uint64_t seed) {
   const ScenarioOutcome outcome = run_scenario(seed);
-  if (outcome.failures.empty()) return;
+  if (outcome.failures.empty()) return outcome.late_s;
   std::string report = "WARREN_SIM_SEED=" + std::to_string(seed) + ": " + outcome.story;
   for (const std::string& failure : outcome.failures) report += "\n  " + failure;
   FAIL_CHECK(report);
+  return outcome.late_s;
 }
 
 void run_part(std::uint64_t part) {
   if (const char* seed = std::getenv("WARREN_SIM_SEED")) {
-    if (part == 0) run(std::strtoull(seed, nullptr, 10));
+    if (part == 0) MESSAGE("late by ", run(std::strtoull(seed, nullptr, 10)), " s");
     return;
   }
-  for (std::uint64_t i = 1; i <= kSeedsPerPart; ++i) run(part * kSeedsPerPart + i);
+  std::uint64_t late = 0;
+  double worst_s = 0.0;
+  for (std::uint64_t i = 1; i <= kSeedsPerPart; ++i) {
+    const double late_s = run(part * kSeedsPerPart + i);
+    if (late_s > 0.0) ++late;
+    worst_s = std::max(worst_s, late_s);
+  }
+  // The target is none; what is asserted is what was reached.
+  MESSAGE(late, " of ", kSeedsPerPart, " later than 1.25 times the theoretical time plus 2 s, by ",
+          worst_s, " s at most");
+  CHECK(late <= kSeedsPerPart / 4);
 }
 
 TEST_CASE("what was promised is kept through all troubles, part 1") { run_part(0); }

@@ -67,6 +67,7 @@ void Simulation::start(std::size_t index) {
   EndpointConfig config;
   config.self = {node.id};
   config.boot = {random.next()};
+  node.boots.insert(node.boots.begin(), config.boot);
   config.random_seed = random.next();
   config.members_max = config_.members_max;
   for (std::size_t k = 0; k < networks_.size(); ++k) {
@@ -170,6 +171,18 @@ void Simulation::inject(std::size_t to, std::size_t interface, const MeshAddress
   changed_[to] = true;
 }
 
+std::optional<BootId> Simulation::sealed_for(std::size_t station, const Datagram& datagram) {
+  const auto header = read_packet_header(datagram.bytes);
+  if (!header || header->type != PacketType::kPair) return std::nullopt;
+  for (const BootId boot : nodes_[station].boots) {
+    const auto [key, is_new] = pair_keys_.try_emplace({header->sender.bits, boot.bits});
+    if (is_new) key->second = keys_->pair_key(header->sender, boot);
+    if (open(key->second, datagram.bytes)) return boot;
+  }
+  ledger_.fail(now_, "a packet was sealed for nobody");
+  return std::nullopt;
+}
+
 void Simulation::send(SimNode& node, const Datagram& datagram) {
   const std::size_t index = index_of(node);
   if (on_sent) on_sent(index, datagram);
@@ -180,11 +193,13 @@ void Simulation::send(SimNode& node, const Datagram& datagram) {
     to = known == by_address_.end() ? static_cast<StationIndex>(index)
                                     : static_cast<StationIndex>(known->second);
   }
-  ledger_.on_datagram(now_, to, datagram.bytes);
+  const auto receiver =
+      to == kEveryStation || to == index ? std::nullopt : sealed_for(to, datagram);
+  if (to != index) ledger_.on_datagram(now_, receiver, datagram.bytes);
   if (config_.planted == Planted::kNonceReused && now_ > MeshTime(std::chrono::seconds(2))) {
     auto other = datagram.bytes;
     other.back() ^= 1U;
-    ledger_.on_datagram(now_, to, other);
+    ledger_.on_datagram(now_, receiver, other);
   }
   if (to == index || (datagram.to.group && config_.seeds_instead_of_group)) return;
   const std::size_t overhead = config_.interface.ip_header_bytes;

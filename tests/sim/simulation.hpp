@@ -36,6 +36,7 @@ struct SimNode {
   std::vector<std::uint8_t> store;
   Duration clock_offset{};             // its clock is ahead of the simulation's by so much
   std::vector<MeshAddress> addresses;  // by interface
+  std::vector<BootId> boots;           // of all its lives, the latest first
   std::uint64_t next_number = 1;       // of parcels, urgent messages
   std::uint64_t telemetry_number = 1;
   // What came last, for measurements.
@@ -99,6 +100,7 @@ class Simulation {
   std::size_t index_of(const SimNode& node) const { return node.id - 1; }
   void pump(SimNode& node);
   void send(SimNode& node, const Datagram& datagram);
+  std::optional<BootId> sealed_for(std::size_t station, const Datagram& datagram);
   void on_event(SimNode& node, MeshEvent&& event);
   void on_parcel(SimNode& node, const ParcelArrived& parcel);
   void deliver();
@@ -112,6 +114,7 @@ class Simulation {
   std::vector<std::unique_ptr<LinkModel>> networks_;
   std::vector<SimNode> nodes_;
   std::map<MeshAddress, std::size_t> by_address_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Key> pair_keys_;  // by sender, receiver
   std::multimap<MeshTime, std::function<void()>> actions_;
   std::vector<bool> changed_;                  // nodes to be pumped
   std::map<std::uint64_t, MeshTime> sent_at_;  // of urgent and telemetry, by from and number

@@ -141,11 +141,13 @@ std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, Packe
   const std::size_t mtu = node.config.interfaces[draft.to.interface].mtu_bytes;
   draft.room = room_of(node, draft.to.interface,
                        std::min(peer.paths.size().limit(mtu), flow.packet_bytes()));
-  add_hello(draft, now, node, peer);
+  // What skips its turn is limited too, but for acknowledgements.
+  const bool at_once = fill == PacketFill::kEverything || flow.may_send_at_once(now);
+  if (at_once) add_hello(draft, now, node, peer);
   add_acknowledgement(draft, now, flow);
   const SendState state = send_state(node, now, peer);
   if (fill == PacketFill::kUrgentOnly) {
-    peer.scheduler.fill_urgent(state, draft.room, peer.outbox, draft.packet);
+    if (at_once) peer.scheduler.fill_urgent(state, draft.room, peer.outbox, draft.packet);
     return send(node, now, peer, draft);
   }
   if (add_size_probe(draft, node, now, peer)) return send(node, now, peer, draft);
