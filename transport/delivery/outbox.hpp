@@ -40,7 +40,7 @@ class Outbox {
   // about parcels. Never kFresh, kBacklog.
   struct Room {
     std::size_t left = 0;   // at least 128 in an empty packet
-    std::size_t whole = 0;  // of an empty packet
+    std::size_t whole = 0;  // of the largest packet that the path carries
   };
   std::optional<OutgoingFrame> next(MeshTime now, Room room, SendClass send_class, Duration rtt);
   // When next() of this class has something without anything else happening; the distant past: now.

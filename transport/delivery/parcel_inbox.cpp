@@ -13,9 +13,16 @@ constexpr std::size_t kAnswersMax = 1024;
 
 NumberRange one(std::uint32_t number) { return {number, std::uint64_t{number} + 1}; }
 
+// What the flat charge of a parcel does not cover; a vector may have room for twice as many.
+std::size_t charge_of(const ByteRanges& have) {
+  constexpr std::size_t kCovered = 4;
+  const std::size_t ranges = have.ranges().size();
+  return ranges > kCovered ? 2 * (ranges - kCovered) * sizeof(NumberRange) : 0;
+}
+
 }  // namespace
 
-ParcelInbox::~ParcelInbox() { budget_.give_back(bytes_); }
+ParcelInbox::~ParcelInbox() { budget_.give_back(unfinished_bytes()); }
 
 std::optional<ParcelInbox::Arrived> ParcelInbox::on_fragment(const ParcelFrame& fragment) {
   if (fragment.parcel.stream == previous_stream_) {
@@ -126,6 +133,19 @@ bool ParcelInbox::evict_after(std::uint32_t number) {
   return false;
 }
 
+bool ParcelInbox::charge_ranges(const ByteRanges& before, const ByteRanges& after) {
+  const std::size_t old = charge_of(before);
+  const std::size_t now = charge_of(after);
+  if (now > old) {
+    if (range_bytes_ + now - old > kRangeBytesMax || !budget_.take(now - old)) return false;
+  } else {
+    budget_.give_back(old - now);
+  }
+  range_bytes_ += now;
+  range_bytes_ -= old;
+  return true;
+}
+
 std::optional<ParcelInbox::Arrived> ParcelInbox::store(const ParcelFrame& fragment,
                                                        Parcel& parcel) {
   const NumberRange range{fragment.offset, fragment.offset + fragment.bytes.size()};
@@ -135,7 +155,7 @@ std::optional<ParcelInbox::Arrived> ParcelInbox::store(const ParcelFrame& fragme
   }
   ByteRanges have = parcel.have;
   have.add(range);
-  if (have.ranges().size() > kRangesPerParcelMax) {
+  if (have.ranges().size() > kRangesPerParcelMax || !charge_ranges(parcel.have, have)) {
     ++counts_.fragments_refused;
     return std::nullopt;
   }
@@ -214,8 +234,10 @@ void ParcelInbox::restore(const SavedIncoming& saved) {
 
 void ParcelInbox::release(std::map<std::uint32_t, Parcel>::iterator parcel) {
   const std::size_t charge = ParcelBudget::charge(parcel->second.total);
+  const std::size_t ranges = charge_of(parcel->second.have);
   bytes_ -= charge;
-  budget_.give_back(charge);
+  range_bytes_ -= ranges;
+  budget_.give_back(charge + ranges);
   parcels_.erase(parcel);
 }
 

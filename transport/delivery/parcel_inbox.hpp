@@ -19,10 +19,13 @@ namespace warren::mesh {
 
 // Parcels that come from one peer. Each is handed on once per life of ours, and after finish()
 // never again, as long as what save() gave is restored. All memory is charged until finish(): who
-// does not finish gets no more.
+// does not finish gets no more. A parcel is charged as its sender counts it; when it comes in many
+// pieces, their ranges come on top.
 class ParcelInbox {
  public:
   static constexpr std::size_t kRangesPerParcelMax = 1024;
+  static constexpr std::size_t kRangeBytesMax =
+      256'000;  // of all parcels, beyond their flat charge
 
   struct Arrived {
     ParcelKey key;
@@ -50,7 +53,8 @@ class ParcelInbox {
   // Gives back what unfinished parcels hold that were not handed on; their sender sends them again.
   void drop_partial();
 
-  std::size_t unfinished_bytes() const { return bytes_; }
+  // Charged to the budget.
+  std::size_t unfinished_bytes() const { return bytes_ + range_bytes_; }
   SavedIncoming save() const;
   // Precondition: nothing has come yet.
   void restore(const SavedIncoming& saved);
@@ -70,6 +74,7 @@ class ParcelInbox {
   Parcel* admit(const ParcelFrame& fragment);
   bool take_room(std::size_t charge, ParcelClass priority);
   bool evict_after(std::uint32_t number);
+  bool charge_ranges(const ByteRanges& before, const ByteRanges& after);
   std::optional<Arrived> store(const ParcelFrame& fragment, Parcel& parcel);
   void release(std::map<std::uint32_t, Parcel>::iterator parcel);
   void answer(std::uint32_t number);
@@ -82,7 +87,8 @@ class ParcelInbox {
   std::uint32_t finished_before_ = 0;
   ByteRanges finished_;                      // numbers, from finished_before_ on
   std::map<std::uint32_t, Parcel> parcels_;  // begun, or handed on and not finished
-  std::size_t bytes_ = 0;                    // charged to the budget
+  std::size_t bytes_ = 0;                    // charged to the budget, flat
+  std::size_t range_bytes_ = 0;              // and on top
   std::set<std::uint32_t> answers_;          // numbers of which a state is due
 };
 

@@ -56,6 +56,7 @@ struct Scheduler::Filling {
   // What the caller put in is not ours to limit: were it charged, a stream of acknowledgements
   // could keep receipts from ever going.
   std::size_t given_control = packet.class_bytes[index_of(SendClass::kControl)];
+  std::size_t given_frames = packet.frames.size();
 
   double bytes_of(SendClass send_class) const {
     return static_cast<double>(packet.class_bytes[index_of(send_class)]);
@@ -63,14 +64,19 @@ struct Scheduler::Filling {
   double own_control() const {
     return bytes_of(SendClass::kControl) - static_cast<double>(given_control);
   }
-  std::size_t left() const { return room > packet.bytes ? room - packet.bytes : 0; }
+  std::size_t left_of(std::size_t whole) const {
+    return whole > packet.bytes ? whole - packet.bytes : 0;
+  }
+  std::size_t left() const { return left_of(room); }
   bool add(std::optional<OutgoingFrame> frame, SendClass send_class) {
     if (!frame) return false;
     packet.add(std::move(*frame), send_class);
     return true;
   }
-  bool add_next(SendClass send_class) {
-    return add(outbox.next(state.now, {left(), room}, send_class, state.rtt), send_class);
+  bool add_next(SendClass send_class) { return add_next(send_class, room); }
+  bool add_next(SendClass send_class, std::size_t whole) {
+    const Outbox::Room place{left_of(whole), std::max(room, state.room_max)};
+    return add(outbox.next(state.now, place, send_class, state.rtt), send_class);
   }
 };
 
@@ -90,7 +96,8 @@ void Scheduler::fill_urgent(const SendState& state, std::size_t room, Outbox& ou
                             FilledPacket& packet) {
   while (true) {
     const std::size_t left = room > packet.bytes ? room - packet.bytes : 0;
-    auto frame = outbox.next(state.now, {left, room}, SendClass::kUrgent, state.rtt);
+    const Outbox::Room place{left, std::max(room, state.room_max)};
+    auto frame = outbox.next(state.now, place, SendClass::kUrgent, state.rtt);
     if (!frame) return;
     packet.add(std::move(*frame), SendClass::kUrgent);
   }
@@ -130,8 +137,17 @@ void Scheduler::fill_small(Filling& filling) {
     if (filling.add(filling.inbox.next_answer(filling.left()), SendClass::kControl)) continue;
     if (!filling.add_next(SendClass::kControl)) break;
   }
+  fill_telemetry(filling);
+}
+
+// The value whose turn it is makes the packet larger than those of now, if it must and nothing else
+// is in it.
+void Scheduler::fill_telemetry(Filling& filling) {
+  const bool untouched = filling.packet.frames.size() == filling.given_frames;
+  std::size_t room = std::max(filling.room, untouched ? filling.state.room_max : 0);
   while (telemetry_.tokens() > filling.bytes_of(SendClass::kTelemetry)) {
-    if (!filling.add_next(SendClass::kTelemetry)) break;
+    if (!filling.add_next(SendClass::kTelemetry, room)) break;
+    room = filling.room;
   }
 }
 

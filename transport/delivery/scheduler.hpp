@@ -43,6 +43,9 @@ struct SendState {
   double rate_bytes_s = 0.0;       // of the pacer, for this peer
   Duration rtt{};                  // zero: unknown
   std::size_t overhead_bytes = 0;  // of a packet, around the frames: IP, UDP, envelope
+  // Room of the largest packet that the path carries, though such of now may be smaller: telemetry
+  // that needs it gets it, in a packet of its own.
+  std::size_t room_max = 0;
 };
 
 struct FilledPacket {
@@ -63,8 +66,9 @@ class Scheduler {
   explicit Scheduler(const SchedulerConfig& config = {});
 
   // Appends to `packet`. What the caller has put there (acknowledgements and the like) is counted
-  // in its `bytes` and `class_bytes`. `room` is of the whole content. Nothing is appended only if
-  // next_due() lies ahead, or for want of room.
+  // in its `bytes` and `class_bytes`. `room` is of the whole content; one large telemetry value
+  // alone may go beyond, up to SendState::room_max. Nothing is appended only if next_due() lies
+  // ahead, or for want of room.
   void fill(const SendState& state, std::size_t room, Outbox& outbox, Inbox& inbox,
             const PullMap& pull, FilledPacket& packet);
   // Urgent messages only: for when the pacer has no room for more.
@@ -79,6 +83,7 @@ class Scheduler {
   struct Filling;
   void refill(const SendState& state);
   void fill_small(Filling& filling);
+  void fill_telemetry(Filling& filling);
   void fill_bulk(Filling& filling);
   bool fill_map(Filling& filling, MapClass wanted);
   std::optional<MapClass> owed(std::size_t room) const;

@@ -22,7 +22,7 @@ class TelemetryOutbox {
   // The board has a new value of it.
   void on_set(std::uint16_t key);
   // Of the key that waits longest among those that fit. What does not even fit into `whole`, the
-  // room of an empty packet, waits no longer.
+  // room of the path's largest packet, waits no longer.
   std::optional<OutgoingFrame> next(std::size_t room, std::size_t whole);
   // Of this very version, if it is the latest still.
   std::optional<OutgoingFrame> again(const TelemetryTicket& ticket) const;

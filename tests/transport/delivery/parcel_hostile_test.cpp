@@ -96,6 +96,27 @@ TEST_CASE_FIXTURE(HostileFixture, "a parcel in too many pieces is bounded, and e
   CHECK(take(fragment(0, 10'000, 0, 10'000)));
 }
 
+TEST_CASE_FIXTURE(HostileFixture,
+                  "the pieces of many parcels are charged, bounded and given back") {
+  for (std::uint32_t number = 0; number < 500; ++number) {
+    for (std::uint32_t offset = 0; offset < 2'000; offset += 2)
+      (void)take(fragment(number, 2'000, offset, 1));
+  }
+  const std::size_t flat = 500 * ParcelBudget::charge(2'000);
+  CHECK(inbox.unfinished_bytes() > flat + 200'000);
+  CHECK(inbox.unfinished_bytes() <= flat + ParcelInbox::kRangeBytesMax);
+  CHECK(budget.used() == inbox.unfinished_bytes());
+  CHECK(take(fragment(499, 2'000, 0, 2'000)));
+  CHECK(take(fragment(0, 2'000, 0, 2'000)));
+  CHECK(budget.used() == inbox.unfinished_bytes());
+  for (std::uint32_t number = 0; number < 500; ++number) {
+    (void)take(fragment(number, 2'000, 0, 2'000));
+    inbox.finish_parcel({1, number});
+  }
+  CHECK(inbox.unfinished_bytes() == 0);
+  CHECK(budget.used() == 0);
+}
+
 TEST_CASE_FIXTURE(HostileFixture, "a huge finished_before ends the sender's own stream only") {
   CHECK_FALSE(take(fragment(0, 10, 0, 5)));
   auto frame = fragment(0xFFFF'FFFF, 10, 0, 5);

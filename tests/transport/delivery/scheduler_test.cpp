@@ -43,7 +43,11 @@ struct SchedulerFixture {
     CHECK(packet.bytes <= kRoom);
     return packet;
   }
-  SendState state() const { return {now, kRate, 100ms, kOverhead}; }
+  SendState state() const { return {now, kRate, 100ms, kOverhead, 0}; }
+  void set(std::uint16_t key, std::size_t bytes) {
+    REQUIRE(board.set(key, std::vector<std::uint8_t>(bytes)));
+    outbox.on_telemetry_set(key);
+  }
   // All is acknowledged at once.
   void run(int count, std::size_t parcel_bytes = 0) {
     for (int i = 0; i < count; ++i) {
@@ -132,6 +136,45 @@ TEST_CASE_FIXTURE(SchedulerFixture,
   }
   CHECK(bytes / 10.0 < 0.21 * kRate);
   CHECK(bytes / 10.0 > 0.17 * kRate);
+}
+
+TEST_CASE_FIXTURE(SchedulerFixture,
+                  "a value larger than the packets of now has one of its own, in its turn") {
+  fresh = true;
+  set(1, 700);
+  set(2, 20);
+  SendState slow = state();
+  slow.room_max = kRoom;
+  const PullMap pull = [](MapClass wanted, std::size_t limit) -> std::optional<PulledMap> {
+    return PulledMap{1, std::vector<std::uint8_t>(wanted == MapClass::kFresh ? limit : 1)};
+  };
+  const auto fill_slow = [&] {
+    FilledPacket packet;
+    packet.add(PingFrame{10}, SendClass::kControl);
+    scheduler.fill(slow, 340, outbox, inbox, pull, packet);
+    return packet;
+  };
+  const FilledPacket large = fill_slow();
+  REQUIRE(large.frames.size() == 2);
+  CHECK(std::get<TelemetryFrame>(large.frames[1]).key == 1);
+  CHECK(large.bytes > 700);
+  // Small ones that are always new do not keep it from its turn.
+  set(1, 700);
+  int large_values = 0;
+  for (int i = 0; i < 10; ++i) {
+    set(2, 20);
+    slow.now += 100ms;
+    for (const Frame& frame : fill_slow().frames) {
+      const auto* value = std::get_if<TelemetryFrame>(&frame);
+      if (value != nullptr && value->key == 1) ++large_values;
+    }
+  }
+  CHECK(large_values == 1);
+  set(3, 700);
+  slow.room_max = 500;
+  slow.now += 1s;
+  CHECK(fill_slow().bytes <= 340);
+  CHECK(outbox.counts().telemetry_oversized == 1);
 }
 
 TEST_CASE_FIXTURE(SchedulerFixture, "answers and questions have their tenth at most") {
