@@ -67,8 +67,8 @@ struct TelemetryFrame {
   friend bool operator==(const TelemetryFrame&, const TelemetryFrame&) = default;
 };
 
-// Parcels to one member are numbered without a gap in a stream that outlives restarts: 64 random
-// bits, drawn anew only if the sender's store is lost.
+// Parcels to one member have rising numbers in a stream that outlives restarts: 64 random bits,
+// drawn anew only if the sender's store is lost. A restart of the sender leaves a gap.
 struct ParcelKey {
   std::uint64_t stream = 0;
   std::uint32_t number = 0;
