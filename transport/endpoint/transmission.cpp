@@ -144,7 +144,9 @@ std::optional<Datagram> Transmission::poll_prompt(MeshTime now) {
                                  everything ? PacketFill::kEverything : PacketFill::kUrgentOnly);
     refresh(now, peer);
     if (datagram) return datagram;
+    // What is due cannot go now.
     set_prompt(peer, false);
+    if (peer.deadline <= now) set_deadline(peer, now + kLookAgain);
   }
   return std::nullopt;
 }
@@ -166,6 +168,7 @@ std::optional<Datagram> Transmission::poll_turn(MeshTime now, InterfaceIndex int
     refresh(now, peer);
     if (datagram) return datagram;
     set_turn(peer, std::nullopt);
+    if (peer.deadline <= now) set_deadline(peer, now + kLookAgain);
   }
   return std::nullopt;
 }
