@@ -31,5 +31,21 @@ TEST_CASE("two nodes find each other and hand over a parcel") {
   for (const auto& failure : simulation.ledger().failures()) FAIL_CHECK(failure);
 }
 
+TEST_CASE("telemetry larger than the first packets are arrives all the same") {
+  for (const double bit_s : {50e3, 1e6}) {
+    CAPTURE(bit_s);
+    Simulation::Config config;
+    config.networks[0].link = radio(bit_s, milliseconds(50), 0.0);
+    Simulation simulation(config);
+    simulation.start(0);
+    simulation.start(1);
+    simulation.set_telemetry(0, 7, 900);
+    const bool arrived = simulation.run_until(
+        MeshTime(seconds(5)), [&] { return !simulation.node(1).telemetry_latency.empty(); });
+    CHECK(arrived);
+    for (const auto& failure : simulation.ledger().failures()) FAIL_CHECK(failure);
+  }
+}
+
 }  // namespace
 }  // namespace warren::mesh::sim

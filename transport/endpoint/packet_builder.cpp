@@ -130,8 +130,10 @@ SendState send_state(const Node& node, MeshTime now, const Peer& peer) {
   const Flow& flow = peer.session->flow;
   const auto path = peer.paths.current();
   const InterfaceIndex interface = path ? path->interface : InterfaceIndex { 0 };
+  const InterfaceConfig& config = node.config.interfaces[interface];
   return {now, flow.pace(), flow.quality(now).rtt.value_or(Duration{}),
-          node.config.interfaces[interface].ip_header_bytes + kEnvelopeBytes};
+          config.ip_header_bytes + kEnvelopeBytes,
+          path ? room_of(node, interface, peer.paths.size().limit(config.mtu_bytes)) : 0};
 }
 
 std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, PacketFill fill) {
