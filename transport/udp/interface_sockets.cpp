@@ -29,7 +29,13 @@ InterfaceSockets::InterfaceSockets(const MeshSocketsConfig& config, SocketInterf
 }
 
 void InterfaceSockets::refresh(std::uint16_t port) {
-  const LinkState link = read_link_state(interface_.name);
+  const auto state = read_link_state(interface_.name);
+  looked_ = state.has_value();
+  if (!state) {
+    if (!is_open()) problem_ = "nothing is known of " + interface_.name;
+    return;
+  }
+  const LinkState& link = *state;
   broadcasts_ = link.broadcasts;
   problem_.clear();
   if (link.index == 0) problem_ = "there is no interface " + interface_.name;
@@ -54,6 +60,7 @@ void InterfaceSockets::open(Family& family, std::uint16_t port) {
   if (!of_group) return note(of_group.error());
   family.own = reader(std::move(*own));
   family.of_group = reader(std::move(*of_group));
+  if (!family.own || !family.of_group) return close(family);
   ++counts_.opened;
 }
 
@@ -66,7 +73,10 @@ void InterfaceSockets::note(const UdpSocket::Error& error) {
 std::shared_ptr<SocketReader> InterfaceSockets::reader(UdpSocket socket) {
   auto made = std::make_shared<SocketReader>(dependencies_.io, std::move(socket),
                                              [this](const SocketReader& from) { read(from); });
-  made->start();
+  if (const std::error_code error = made->start()) {
+    note({"epoll_ctl", error.value()});
+    return nullptr;
+  }
   return made;
 }
 
@@ -133,7 +143,7 @@ void InterfaceSockets::send_from(const Family& family, const MeshAddress& to,
 
 bool InterfaceSockets::is_complete() const {
   const auto complete = [](const Family& family) { return !family.wanted || family.is_open(); };
-  return complete(ipv4_) && complete(ipv6_);
+  return looked_ && complete(ipv4_) && complete(ipv6_);
 }
 
 std::uint16_t InterfaceSockets::port() const {

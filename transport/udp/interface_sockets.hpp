@@ -68,7 +68,7 @@ class InterfaceSockets {
   void follow(Family& family, const Presence& presence, std::uint16_t port);
   void open(Family& family, std::uint16_t port);
   void close(Family& family);
-  std::shared_ptr<SocketReader> reader(UdpSocket socket);
+  std::shared_ptr<SocketReader> reader(UdpSocket socket);  // null: it cannot be watched
   void note(const UdpSocket::Error& error);
   void read(const SocketReader& from);
   void send_from(const Family& family, const MeshAddress& to, std::span<const std::uint8_t> bytes);
@@ -77,6 +77,7 @@ class InterfaceSockets {
   Dependencies dependencies_;
   bool group_loop_;
   Family ipv4_, ipv6_;
+  bool looked_ = false;  // the kernel told of the interface when it was asked last
   std::vector<MeshAddress> broadcasts_;
   std::uint16_t group_port_;
   SocketCounts counts_;

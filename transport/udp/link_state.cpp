@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/udp/link_state.hpp"
 
+#include <cerrno>
 #include <memory>
 
 #include <ifaddrs.h>
@@ -12,12 +13,6 @@ namespace warren::mesh {
 namespace {
 
 using Addresses = std::unique_ptr<ifaddrs, decltype(&freeifaddrs)>;
-
-Addresses all_addresses() {
-  ifaddrs* first = nullptr;
-  if (getifaddrs(&first) != 0) first = nullptr;
-  return {first, &freeifaddrs};
-}
 
 void add(LinkState& state, const ifaddrs& entry) {
   state.up = state.up || (entry.ifa_flags & IFF_UP) != 0;
@@ -35,12 +30,17 @@ void add(LinkState& state, const ifaddrs& entry) {
 
 }  // namespace
 
-LinkState read_link_state(const std::string& name) {
+std::optional<LinkState> read_link_state(const std::string& name) {
   LinkState state;
   state.index = if_nametoindex(name.c_str());
-  if (state.index == 0) return state;
-  const Addresses addresses = all_addresses();
-  for (const ifaddrs* entry = addresses.get(); entry != nullptr; entry = entry->ifa_next) {
+  if (state.index == 0) {
+    if (errno != ENODEV && errno != ENXIO) return std::nullopt;
+    return state;
+  }
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return std::nullopt;
+  const Addresses addresses(first, &freeifaddrs);
+  for (const ifaddrs* entry = first; entry != nullptr; entry = entry->ifa_next) {
     if (name == entry->ifa_name) add(state, *entry);
   }
   return state;

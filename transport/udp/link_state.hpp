@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct LinkState {
   friend bool operator==(const LinkState&, const LinkState&) = default;
 };
 
-LinkState read_link_state(const std::string& name);
+// Nothing if the kernel could not tell, as without a descriptor left.
+std::optional<LinkState> read_link_state(const std::string& name);
 
 }  // namespace warren::mesh

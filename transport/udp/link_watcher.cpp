@@ -25,7 +25,12 @@ bool LinkWatcher::start() {
     close(descriptor);
     return false;
   }
-  socket_.assign(descriptor);
+  asio::error_code error;
+  socket_.assign(descriptor, error);
+  if (error) {
+    close(descriptor);
+    return false;
+  }
   wait();
   return true;
 }

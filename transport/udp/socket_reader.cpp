@@ -6,18 +6,27 @@
 namespace warren::mesh {
 
 SocketReader::SocketReader(asio::io_context& io, UdpSocket socket, OnReadable on_readable)
-    : socket_(std::move(socket)),
-      waiter_(io, socket_.descriptor()),
-      on_readable_(std::move(on_readable)) {}
+    : socket_(std::move(socket)), waiter_(io), on_readable_(std::move(on_readable)) {}
 
 SocketReader::~SocketReader() { stop(); }
 
-void SocketReader::start() {
+std::error_code SocketReader::start() {
+  asio::error_code error;
+  waiter_.assign(socket_.descriptor(), error);
+  if (error) {
+    stop();
+  } else {
+    wait();
+  }
+  return error;
+}
+
+void SocketReader::wait() {
   waiter_.async_wait(asio::posix::stream_descriptor::wait_read,
                      [self = shared_from_this()](const asio::error_code& error) {
                        if (error || self->stopped_) return;
                        self->on_readable_(*self);
-                       if (!self->stopped_) self->start();
+                       if (!self->stopped_) self->wait();
                      });
 }
 
@@ -25,7 +34,7 @@ void SocketReader::stop() {
   if (std::exchange(stopped_, true)) return;
   // The descriptor belongs to the socket. It goes now and not with the last handler that holds us:
   // the next socket wants its port.
-  waiter_.release();
+  if (waiter_.is_open()) waiter_.release();
   socket_.close();
 }
 

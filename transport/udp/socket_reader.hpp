@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <system_error>
 
 #include <asio/io_context.hpp>
 #include <asio/posix/stream_descriptor.hpp>
@@ -19,12 +20,15 @@ class SocketReader : public std::enable_shared_from_this<SocketReader> {
   SocketReader(asio::io_context& io, UdpSocket socket, OnReadable on_readable);
   ~SocketReader();
 
-  void start();
+  // An error: it cannot be watched, and is stopped.
+  std::error_code start();
   void stop();
   bool is_stopped() const { return stopped_; }
   const UdpSocket& socket() const { return socket_; }
 
  private:
+  void wait();
+
   UdpSocket socket_;
   asio::posix::stream_descriptor waiter_;
   OnReadable on_readable_;

@@ -25,7 +25,7 @@ bool wait_until_running(const NetworkNamespace& where) {
   std::thread([&] {
     where.enter();
     for (int i = 0; i < 500 && !running; ++i) {
-      running = read_link_state("radio0").running;
+      running = read_link_state("radio0").value_or(LinkState{}).running;
       if (!running) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }).join();
