@@ -37,4 +37,4 @@ TEST_CASE("an interface that cannot be looked at is not taken for one that is do
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::mesh
