@@ -70,12 +70,13 @@ TEST_CASE("telemetry and urgent messages under a saturating backlog") {
   }
   MESSAGE("p99: telemetry ", quantile(telemetry, 0.5), " s, urgent ", quantile(urgent, 0.5),
           " s, urgent at loss 20 % ", quantile(urgent_lossy, 0.5), " s; target ", kTarget, " s");
+  // The target is missed; what is reached must not be lost again.
   WARN(quantile(telemetry, 0.5) <= kTarget);
-  CHECK(quantile(telemetry, 0.5) <= 2.0 * kTarget);
+  CHECK(quantile(telemetry, 0.5) <= 1.25 * kTarget);
   WARN(quantile(urgent, 0.5) <= kTarget);
-  CHECK(quantile(urgent, 0.5) <= 2.0 * kTarget);
+  CHECK(quantile(urgent, 0.5) <= 1.15 * kTarget);
   WARN(quantile(urgent_lossy, 0.5) <= kTarget);
-  CHECK(quantile(urgent_lossy, 0.5) <= 2.0 * kTarget);
+  CHECK(quantile(urgent_lossy, 0.5) <= 1.4 * kTarget);
 }
 
 TEST_CASE("no class starves another") {
@@ -181,9 +182,9 @@ TEST_CASE("the rate follows steps of the link") {
             quantile(use_up, 0.5), " of the rate, queue at most ", quantile(late_queue, 0.5), " s");
     // A packet on the air at 100 kbit/s is 114 ms itself.
     WARN(quantile(late_queue, 0.5) <= 0.15 + 0.03);
-    CHECK(quantile(late_queue, 0.5) <= 1.0);
-    WARN(quantile(use_down, 0.5) >= 0.7);
-    WARN(quantile(use_up, 0.5) >= 0.8);
+    CHECK(quantile(late_queue, 0.5) <= 0.28);
+    CHECK(quantile(use_down, 0.5) >= 0.8);
+    CHECK(quantile(use_up, 0.5) >= 0.9);
   }
 }
 

@@ -43,7 +43,7 @@ TEST_CASE("strangers get no answer and cause no state") {
   CHECK(pair_packets == 0);
   CHECK(unused(simulation, 0, Unused::kNotAuthentic) == 1000);
   CHECK(simulation.node(0).endpoint->memory_bytes() == memory);
-  CHECK(simulation.node(0).endpoint->members(simulation.now()).empty());
+  CHECK(simulation.node(0).endpoint->members().empty());
 }
 
 TEST_CASE("recorded packets of an earlier life change nothing") {
@@ -60,14 +60,14 @@ TEST_CASE("recorded packets of an earlier life change nothing") {
   simulation.stop(1);
   simulation.start(1);
   simulation.run_until(MeshTime(seconds(8)));
-  const BootId boot = simulation.node(0).endpoint->members(simulation.now())[0].boot;
+  const BootId boot = simulation.node(0).endpoint->members()[0].boot;
   const auto first_life = recorded;
   CHECK(simulation.node(1).members_up[1] == 2);
   for (const Datagram& datagram : first_life) {
     simulation.inject(0, 0, simulation.node(1).addresses[0], datagram.bytes);
   }
   simulation.run_until(MeshTime(seconds(9)));
-  CHECK(simulation.node(0).endpoint->members(simulation.now())[0].boot == boot);
+  CHECK(simulation.node(0).endpoint->members()[0].boot == boot);
   CHECK(unused(simulation, 0, Unused::kRetiredBoot) > 0);
   CHECK(simulation.ledger().failures().empty());
   // Nor in a new life of the receiver, which knows none of it.
@@ -77,8 +77,8 @@ TEST_CASE("recorded packets of an earlier life change nothing") {
     simulation.inject(0, 0, simulation.node(1).addresses[0], datagram.bytes);
   }
   simulation.run_until(MeshTime(seconds(12)));
-  REQUIRE(simulation.node(0).endpoint->members(simulation.now()).size() == 1);
-  CHECK(simulation.node(0).endpoint->members(simulation.now())[0].boot == boot);
+  REQUIRE(simulation.node(0).endpoint->members().size() == 1);
+  CHECK(simulation.node(0).endpoint->members()[0].boot == boot);
   CHECK(simulation.ledger().failures().empty());
 }
 
@@ -100,8 +100,8 @@ TEST_CASE("a packet of an earlier life that never arrived does not lock out the 
   simulation.network().set_link(simulation.now(), 1, 0, config.networks[0].link);
   simulation.start(1);
   simulation.run_until(MeshTime(seconds(6)));
-  REQUIRE(simulation.node(0).endpoint->members(simulation.now()).size() == 1);
-  const BootId boot = simulation.node(0).endpoint->members(simulation.now())[0].boot;
+  REQUIRE(simulation.node(0).endpoint->members().size() == 1);
+  const BootId boot = simulation.node(0).endpoint->members()[0].boot;
   for (int round = 0; round < 50; ++round) {
     for (const Datagram& datagram : never_arrived) {
       simulation.inject(0, 0, simulation.node(1).addresses[0], datagram.bytes);
@@ -109,7 +109,7 @@ TEST_CASE("a packet of an earlier life that never arrived does not lock out the 
     simulation.run_until(simulation.now() + milliseconds(50));
   }
   CHECK(unused(simulation, 0, Unused::kNotFresh) > 0);
-  CHECK(simulation.node(0).endpoint->members(simulation.now())[0].boot == boot);
+  CHECK(simulation.node(0).endpoint->members()[0].boot == boot);
   simulation.send_parcel(0, 1, ParcelClass::kMessage, 1000);
   CHECK(simulation.run_until(simulation.now() + seconds(2),
                              [&] { return simulation.ledger().outstanding() == 0; }));
@@ -188,7 +188,7 @@ TEST_CASE("members_max is kept") {
   for (std::size_t i = 0; i < 6; ++i) simulation.start(i);
   simulation.run_until(MeshTime(seconds(10)));
   for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(simulation.node(i).endpoint->members(simulation.now()).size() <= 3);
+    CHECK(simulation.node(i).endpoint->members().size() <= 3);
     CHECK(unused(simulation, i, Unused::kMemberTableFull) > 0);
   }
 }
@@ -202,7 +202,7 @@ TEST_CASE("two interfaces: one falls silent, the other carries on") {
   simulation.run_until(MeshTime(seconds(5)));
   simulation.send_parcel(0, 1, ParcelClass::kMessage, 400'000);
   simulation.run_until(MeshTime(seconds(6)));
-  const auto used = simulation.node(0).endpoint->members(simulation.now())[0].path.interface;
+  const auto used = simulation.node(0).endpoint->members()[0].path.interface;
   simulation.network(used).set_silent(simulation.now(), true);
   CHECK(simulation.run_until(MeshTime(seconds(20)),
                              [&] { return simulation.ledger().outstanding() == 0; }));

@@ -16,9 +16,9 @@ struct Target {
   std::size_t bytes;
   double efficiency;
   double oversend = 0.0;  // 0: not asked for
+  // Of a target that is missed: what is reached, and must not be lost again.
+  double reached = 0.0;
 };
-
-constexpr double kFloor = 0.5;
 
 void check(const Target& target) {
   std::vector<Transferred> runs;
@@ -35,9 +35,8 @@ void check(const Target& target) {
   const double oversend = median(&Transferred::oversend);
   MESSAGE(target.name, ": ", 100.0 * efficiency, " % (target ", 100.0 * target.efficiency,
           "), sent ", oversend, ", queue ", median(&Transferred::queue_s), " s");
-  // A target missed is told; a fall far below it fails.
-  WARN(efficiency >= target.efficiency);
-  CHECK(efficiency >= kFloor * target.efficiency);
+  if (target.reached > 0.0) WARN(efficiency >= target.efficiency);
+  CHECK(efficiency >= (target.reached > 0.0 ? target.reached : target.efficiency));
   if (target.oversend > 0.0) CHECK(oversend <= target.oversend);
 }
 
@@ -57,12 +56,20 @@ TEST_CASE("5 MB at 1 Mbit/s, hard cases") {
   check({"RTT 200, loss 40", {.rtt = milliseconds(200), .loss = 0.40}, kBytes, 0.86});
   check({"RTT 600, loss 0", {.rtt = milliseconds(600)}, kBytes, 0.80});
   check({"RTT 600, loss 20", {.rtt = milliseconds(600), .loss = 0.20}, kBytes, 0.80});
-  check({"bursts 20 %", {.rtt = milliseconds(50), .burst_loss = 0.20}, kBytes, 0.80});
+  check({.name = "bursts 20 %",
+         .radio = {.rtt = milliseconds(50), .burst_loss = 0.20},
+         .bytes = kBytes,
+         .efficiency = 0.80,
+         .reached = 0.68});
 }
 
 TEST_CASE("200 kB at 50 kbit/s") {
   constexpr std::size_t kBytes = 200'000;
-  check({"loss 5", {.bit_s = 50e3, .loss = 0.05}, kBytes, 0.82});
+  check({.name = "loss 5",
+         .radio = {.bit_s = 50e3, .loss = 0.05},
+         .bytes = kBytes,
+         .efficiency = 0.82,
+         .reached = 0.78});
   check({"loss 20", {.bit_s = 50e3, .loss = 0.20}, kBytes, 0.76});
 }
 

@@ -8,11 +8,8 @@
 namespace warren {
 namespace {
 
-constexpr LinkNanoseconds kPerMicrosecond = 1000;
 constexpr LinkNanoseconds kPerMillisecond = 1'000'000;
 constexpr double kPerSecond = 1e9;
-
-LinkNanoseconds nanoseconds(Duration time) { return time.count() * kPerMicrosecond; }
 
 // When opportunity number `index` comes, counted over all repetitions of the list.
 LinkNanoseconds opportunity_at(const Opportunities& list, std::uint64_t index) {

@@ -16,6 +16,8 @@ namespace warren {
 using LinkNanoseconds = std::int64_t;
 inline constexpr LinkNanoseconds kNeverPasses = INT64_MAX;
 
+constexpr LinkNanoseconds nanoseconds(Duration time) { return time.count() * 1000; }
+
 // From `at` on until the next step. Rate 0: nothing passes, what waits goes on waiting.
 struct RateStep {
   Duration at{};

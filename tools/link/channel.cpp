@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::uint32_t kFlippedBitsMax = 8;
 
-LinkNanoseconds nanoseconds(Duration time) { return time.count() * 1000; }
-
 const ChannelStep* step_at(const std::vector<ChannelStep>& steps, LinkNanoseconds time) {
   const auto next = std::upper_bound(
       steps.begin(), steps.end(), time,

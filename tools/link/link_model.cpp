@@ -22,8 +22,6 @@ std::uint64_t& drops(LinkCounts& counts, ChannelLoss loss) {
   }
 }
 
-LinkNanoseconds nanoseconds(Duration time) { return time.count() * kPerMicrosecond; }
-
 // The first microsecond that is not before `time`.
 Duration microseconds(LinkNanoseconds time) {
   return Duration((time + kPerMicrosecond - 1) / kPerMicrosecond);

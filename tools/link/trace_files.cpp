@@ -2,12 +2,13 @@
 #include "tools/link/trace_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <string_view>
+
+#include "tools/world/number_text.hpp"
 
 namespace warren {
 namespace {
@@ -29,17 +30,9 @@ Result fail(std::size_t line, std::string_view what) {
   return tl::unexpected("line " + std::to_string(line + 1) + ": " + std::string(what));
 }
 
-template <typename T>
-std::optional<T> number(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return value;
-}
-
 // A number in [0, most].
 std::optional<double> share_of(std::string_view text, double most) {
-  const auto value = number<double>(text);
+  const auto value = number_in<double>(text);
   if (!value || !(*value >= 0.0 && *value <= most)) return {};
   return value;
 }
@@ -149,7 +142,7 @@ Result read_radio_trace(const Lines& lines) {
 Result read_opportunities(const Lines& lines) {
   Opportunities list;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const auto at_ms = number<std::uint32_t>(lines[i]);
+    const auto at_ms = number_in<std::uint32_t>(lines[i]);
     if (!at_ms) return fail(i, "not a whole number of milliseconds");
     if (!list.at_ms.empty() && *at_ms < list.at_ms.back()) return fail(i, "time goes back");
     list.at_ms.push_back(*at_ms);
@@ -162,8 +155,8 @@ Result read_loss_pattern(const Lines& lines) {
   LossPattern pattern{std::vector<bool>(kRutgersPackets, true), kRutgersPeriod};
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto fields = split(lines[i], ' ');
-    const auto sequence = number<std::uint32_t>(fields[0]);
-    const auto rssi = fields.size() == 2 ? number<std::uint32_t>(fields[1]) : std::nullopt;
+    const auto sequence = number_in<std::uint32_t>(fields[0]);
+    const auto rssi = fields.size() == 2 ? number_in<std::uint32_t>(fields[1]) : std::nullopt;
     if (!sequence || !rssi || *sequence >= kLinesMax) return fail(i, "not a number and an RSSI");
     if (*sequence >= pattern.lost.size()) pattern.lost.resize(*sequence + 1, true);
     if (*rssi != kRutgersBadRssi) pattern.lost[*sequence] = false;

@@ -3,7 +3,6 @@
 #include <array>
 #include <string>
 
-#include <arpa/inet.h>
 #include <srt.h>
 #include <unistd.h>
 
@@ -19,14 +18,6 @@ constexpr int kPatienceMs = 24 * 3600 * 1000;
 
 void must(bool done, const char* what) {
   if (!done) exit_wrong(std::string(what) + ": " + srt_getlasterror_str());
-}
-
-sockaddr_in address_of(const TransportPeerOptions& options) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(options.port);
-  inet_pton(AF_INET, options.address.c_str(), &address.sin_addr);
-  return address;
 }
 
 // File mode: reliable bytes in order, its own congestion control.
@@ -48,7 +39,7 @@ void send_by_srt(const TransportPeerOptions& options) {
   const SRTSOCKET socket = make_socket();
   must(srt_setsockflag(socket, SRTO_CONNTIMEO, &kPatienceMs, sizeof(kPatienceMs)) == 0,
        "SRTO_CONNTIMEO");
-  const sockaddr_in address = address_of(options);
+  const sockaddr_in address = socket_address_of(options);
   print_start();
   must(srt_connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0,
        "srt_connect");
@@ -66,7 +57,7 @@ void send_by_srt(const TransportPeerOptions& options) {
 
 void receive_by_srt(const TransportPeerOptions& options) {
   const SRTSOCKET listener = make_socket();
-  const sockaddr_in address = address_of(options);
+  const sockaddr_in address = socket_address_of(options);
   must(srt_bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0,
        "srt_bind");
   must(srt_listen(listener, 1) == 0, "srt_listen");

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <string>
 
-#include <arpa/inet.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -17,14 +16,6 @@ namespace warren {
 namespace {
 
 constexpr std::size_t kBufferBytes = 65'536;
-
-sockaddr_in address_of(const TransportPeerOptions& options) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(options.port);
-  inet_pton(AF_INET, options.address.c_str(), &address.sin_addr);
-  return address;
-}
 
 void must(bool done, const char* what) {
   if (!done) exit_wrong(std::string(what) + ": " + std::strerror(errno));
@@ -39,7 +30,7 @@ void send_by_tcp(const TransportPeerOptions& options, const char* congestion_con
                  static_cast<socklen_t>(std::strlen(congestion_control))) != 0) {
     exit_unavailable(std::string("the kernel has no ") + congestion_control);
   }
-  const sockaddr_in address = address_of(options);
+  const sockaddr_in address = socket_address_of(options);
   print_start();
   must(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0,
        "connect");
@@ -56,7 +47,7 @@ void send_by_tcp(const TransportPeerOptions& options, const char* congestion_con
 
 void receive_by_tcp(const TransportPeerOptions& options) {
   const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
-  const sockaddr_in address = address_of(options);
+  const sockaddr_in address = socket_address_of(options);
   must(bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0, "bind");
   must(listen(listener, 1) == 0, "listen");
   print_ready();

@@ -2,11 +2,11 @@
 #include "tools/warren-link/options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "tools/link/trace_files.hpp"
+#include "tools/world/number_text.hpp"
 
 namespace warren {
 namespace {
@@ -21,24 +21,18 @@ struct Override {
   LinkSettings settings;
 };
 
-template <typename T>
-bool read_number(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
 std::optional<std::string> set(LinkSettings& settings, std::string_view field) {
   const std::size_t equals = field.find('=');
   const std::string_view name = field.substr(0, equals);
   const auto found = std::find_if(kLinkSettings.begin(), kLinkSettings.end(),
                                   [&](const LinkSetting& setting) { return name == setting.name; });
   if (found == kLinkSettings.end()) return "no setting " + std::string(name);
-  double value = NAN;
-  if (equals == std::string_view::npos || !read_number(field.substr(equals + 1), value) ||
-      !(value >= found->least && value <= found->most)) {
+  const auto value =
+      equals == std::string_view::npos ? std::nullopt : number_in<double>(field.substr(equals + 1));
+  if (!value || !(*value >= found->least && *value <= found->most)) {
     return "no value for " + std::string(name) + " in " + std::string(field);
   }
-  settings.*(found->value) = value;
+  settings.*(found->value) = *value;
   return {};
 }
 
@@ -51,9 +45,10 @@ tl::expected<Override, std::string> read_override(std::string_view text,
     text.remove_prefix(std::min(end + 1, text.size()));
     if (field >= 2) {
       if (const auto error = set(result.settings, word)) return Error("--link: " + *error);
-    } else if (StationIndex& node = field == 0 ? result.from : result.to;
-               !read_number(word, node) || node >= options.nodes) {
-      return Error("--link: no node " + std::string(word));
+    } else {
+      const auto node = number_in<StationIndex>(word);
+      if (!node || *node >= options.nodes) return Error("--link: no node " + std::string(word));
+      (field == 0 ? result.from : result.to) = *node;
     }
   }
   if (result.from == result.to) return Error("--link wants FROM,TO,NAME=VALUE,..");

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
 
 #include "core/exchange/file_bytes.hpp"
+#include "tools/world/number_text.hpp"
 
 namespace warren::world {
 namespace {
@@ -36,11 +36,7 @@ std::string_view trimmed(std::string_view text) {
 
 template <class Number>
 std::optional<Number> number_of(std::string_view text) {
-  text = trimmed(text);
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return number_in<Number>(trimmed(text));
 }
 
 // `A -- B [label=COST];`

@@ -155,7 +155,7 @@ std::vector<Beacon::Heard> Discovery::heard_in_turn(MeshTime now) {
     for (const auto& [id, peer] : node_.members) {
       if (id < least || most < id || heard.size() == Beacon::kHeardMax) continue;
       if (!peer->session || !peer->liveness.up()) continue;
-      const double loss = peer->session->flow.quality(now).loss_in;
+      const double loss = peer->session->flow.quality().loss_in;
       const auto loss_256th = static_cast<std::uint8_t>(std::clamp(loss * 256.0, 0.0, 254.0));
       heard.push_back({low_half(peer->session->keys.peer()),
                        peer->liveness.overdue(now) ? kMissed : loss_256th});

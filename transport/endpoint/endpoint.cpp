@@ -39,7 +39,7 @@ struct Endpoint::State {
 Endpoint::Endpoint(const EndpointConfig& config, std::shared_ptr<const KeySchedule> keys,
                    MapSource& source)
     : state_(std::make_unique<State>(config, std::move(keys), source)) {
-  assert(!config.interfaces.empty() && config.self.number != UINT32_MAX);
+  assert(!config.interfaces.empty() && Node::can_be_member(config.self));
 }
 
 Endpoint::~Endpoint() = default;
@@ -122,17 +122,15 @@ void Endpoint::wake(MeshTime now, MemberId member) {
   state_->refresh(now, peer);
 }
 
-void Endpoint::wake_group(MeshTime /*now*/, InterfaceIndex interface) {
-  state_->transmission.wake_group(interface);
-}
+void Endpoint::wake_group(InterfaceIndex interface) { state_->transmission.wake_group(interface); }
 
-std::vector<Member> Endpoint::members(MeshTime now) const {
+std::vector<Member> Endpoint::members() const {
   std::vector<Member> members;
   for (const auto& [id, peer] : state_->node.members) {
     if (!peer->session) continue;
     members.push_back({id, peer->session->keys.peer(), peer->paths.current().value_or(MeshPath{}),
                        peer->session->since, peer->liveness.heard(), peer->liveness.up(),
-                       peer->session->flow.quality(now)});
+                       peer->session->flow.quality()});
   }
   return members;
 }

@@ -146,9 +146,9 @@ class Endpoint {
   void finish_parcel(MeshTime now, MemberId from, ParcelKey key);
   // MapSource has something for this member again, or for the group of this interface.
   void wake(MeshTime now, MemberId member);
-  void wake_group(MeshTime now, InterfaceIndex interface);
+  void wake_group(InterfaceIndex interface);
 
-  std::vector<Member> members(MeshTime now) const;
+  std::vector<Member> members() const;
   const EndpointCounts& counts() const;
   std::size_t memory_bytes() const;
 

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "transport/visitor.hpp"
+
 namespace warren::mesh {
 namespace {
 
 // While nobody is in reach: beacons are so short and few that any figure does.
 constexpr double kUnknownPace = 125'000.0;
-
-template <typename... Visits>
-struct Visitor : Visits... {
-  using Visits::operator()...;
-};
-template <typename... Visits>
-Visitor(Visits...) -> Visitor<Visits...>;
 
 }  // namespace
 

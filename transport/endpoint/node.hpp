@@ -21,8 +21,9 @@ struct Node {
   Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule> key_schedule,
        MapSource& map_source);
 
-  // Whether it can be another member: not us, nor the number that names the group's turn.
-  bool can_be_peer(MemberId id) const { return id != config.self && id.number != UINT32_MAX; }
+  static bool can_be_member(MemberId id) { return id.number != NodePacer::kGroup; }
+  // Whether it can be another one.
+  bool can_be_peer(MemberId id) const { return id != config.self && can_be_member(id); }
   // The member, made known if it is not; none if there is no room for it.
   Peer* find_or_add(MemberId id);
   // A pair packet proved this boot.

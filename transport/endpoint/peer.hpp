@@ -79,7 +79,7 @@ struct Peer {
   // Nothing was heard for long though an answer was to be expected.
   bool is_silent(MeshTime now) const {
     if (!session || !session->awaiting_since) return false;
-    const Duration rtt = session->flow.quality(now).rtt.value_or(Duration{});
+    const Duration rtt = session->flow.quality().rtt.value_or(Duration{});
     return now - *session->awaiting_since > std::max(kSilence, kSilenceRtts * rtt);
   }
   // Packets may go to it whenever there is something.

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "transport/visitor.hpp"
+
 namespace warren::mesh {
 namespace {
-
-template <typename... Visits>
-struct Visitor : Visits... {
-  using Visits::operator()...;
-};
-template <typename... Visits>
-Visitor(Visits...) -> Visitor<Visits...>;
 
 bool wants_ack(const std::vector<Frame>& frames) {
   return std::any_of(frames.begin(), frames.end(),

@@ -8,8 +8,6 @@
 namespace warren::mesh {
 namespace {
 
-// The pacer's name for packets that go to all. No member has it.
-constexpr NodePacer::Peer kGroupTurn = UINT32_MAX;
 // What is due and cannot be helped now is looked at again after this.
 constexpr Duration kLookAgain = std::chrono::milliseconds(25);
 
@@ -60,24 +58,21 @@ void Transmission::wake_group(InterfaceIndex interface) {
   if (!node_.config.interfaces[interface].group_broadcast || group_awake_[interface]) return;
   group_awake_[interface] = true;
   group_alone_[interface] = false;
-  node_.pacers[interface].want(kGroupTurn, true);
+  node_.pacers[interface].want(NodePacer::kGroup, true);
   ++turns_wanted_[interface];
 }
 
-bool Transmission::wants_turn(MeshTime now, Peer& peer) {
+bool Transmission::wants_turn(MeshTime now, Peer& peer, MeshTime due) {
   Flow& flow = peer.session->flow;
   if (!flow.may_send(now)) return false;
-  if (peer.repeat) return true;
-  if (peer.scheduler.next_due(send_state(node_, now, peer), peer.outbox, peer.inbox) <= now) {
-    return true;
-  }
+  if (peer.repeat || due <= now) return true;
   const PacketSize& size = peer.paths.size();
   if (size.wants_large_probe(now) || size.wants_small_probe()) return true;
   peer.repeat = flow.take_repeat(now);
   return peer.repeat.has_value();
 }
 
-MeshTime Transmission::deadline_of(MeshTime now, Peer& peer, bool serviced) {
+MeshTime Transmission::deadline_of(MeshTime now, const Peer& peer, MeshTime due, bool serviced) {
   MeshTime deadline = peer.liveness.next();
   if (peer.answer) deadline = std::min(deadline, peer.answer->at);
   if (!peer.session) return deadline;
@@ -86,8 +81,6 @@ MeshTime Transmission::deadline_of(MeshTime now, Peer& peer, bool serviced) {
   deadline = std::min(deadline, serviced && flow <= now ? now + kLookAgain : flow);
   if (!peer.in_reach(now)) return deadline;
   deadline = std::min(deadline, peer.outbox.next_due(SendClass::kUrgent));
-  const MeshTime due =
-      peer.scheduler.next_due(send_state(node_, now, peer), peer.outbox, peer.inbox);
   return due > now ? std::min(deadline, due) : deadline;
 }
 
@@ -99,18 +92,22 @@ void Transmission::refresh(MeshTime now, Peer& peer, bool serviced) {
   if (in_reach && group_alone_[peer.paths.current()->interface]) {
     wake_group(peer.paths.current()->interface);
   }
-  if (in_reach && wants_turn(now, peer)) {
+  // When its classes have something to send, its turn aside.
+  const MeshTime due =
+      in_reach ? peer.scheduler.next_due(send_state(node_, now, peer), peer.outbox, peer.inbox)
+               : kNever;
+  if (in_reach && wants_turn(now, peer, due)) {
     set_turn(peer, peer.paths.current()->interface);
   } else {
     set_turn(peer, std::nullopt);
   }
-  set_deadline(peer, deadline_of(now, peer, serviced));
+  set_deadline(peer, deadline_of(now, peer, due, serviced));
 }
 
 void Transmission::service(MeshTime now, Peer& peer) {
   if (peer.session) {
     node_.settle(now, peer, peer.session->flow.on_time(now));
-    const LinkQuality quality = peer.session->flow.quality(now);
+    const LinkQuality quality = peer.session->flow.quality();
     peer.paths.note_quality(quality.loss_out, quality.rtt.value_or(Duration{}));
     if (peer.paths.current()) {
       peer.session->sizes.on_time(now, quality.rtt.value_or(Duration{}), peer.paths.size());
@@ -154,7 +151,7 @@ std::optional<Datagram> Transmission::poll_prompt(MeshTime now) {
 std::optional<Datagram> Transmission::poll_turn(MeshTime now, InterfaceIndex interface) {
   NodePacer& pacer = node_.pacers[interface];
   while (const auto turn = pacer.next(now)) {
-    if (*turn == kGroupTurn) {
+    if (*turn == NodePacer::kGroup) {
       if (auto datagram = group_packet(now, interface)) return datagram;
       continue;
     }
@@ -184,7 +181,7 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
   if (!packet) {
     group_alone_[interface] = !heard;
     group_awake_[interface] = false;
-    node_.pacers[interface].want(kGroupTurn, false);
+    node_.pacers[interface].want(NodePacer::kGroup, false);
     --turns_wanted_[interface];
     return std::nullopt;
   }
@@ -194,7 +191,8 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
       {interface, true, {}},
       seal(group_key_, {PacketType::kGroup, node_.config.boot, group_number_++}, content)};
   const std::size_t ip_bytes = node_.link_bytes(datagram);
-  node_.pacers[interface].on_sent(now, kGroupTurn, ip_bytes, node_.slowest_pace(now, interface));
+  node_.pacers[interface].on_sent(now, NodePacer::kGroup, ip_bytes,
+                                  node_.slowest_pace(now, interface));
   node_.count_sent(ip_bytes);
   ++node_.counts[SentClass::kGroup].packets;
   node_.counts[SentClass::kGroup].bytes += content.size();

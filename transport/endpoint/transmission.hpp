@@ -30,8 +30,9 @@ class Transmission {
   void set_deadline(Peer& peer, MeshTime deadline);
   void set_prompt(Peer& peer, bool prompt);
   void set_turn(Peer& peer, std::optional<InterfaceIndex> interface);
-  MeshTime deadline_of(MeshTime now, Peer& peer, bool serviced);
-  bool wants_turn(MeshTime now, Peer& peer);
+  // due: when the peer's classes have something to send.
+  static MeshTime deadline_of(MeshTime now, const Peer& peer, MeshTime due, bool serviced);
+  bool wants_turn(MeshTime now, Peer& peer, MeshTime due);
   std::optional<Datagram> poll_prompt(MeshTime now);
   std::optional<Datagram> poll_turn(MeshTime now, InterfaceIndex interface);
   std::optional<Datagram> group_packet(MeshTime now, InterfaceIndex interface);

@@ -139,7 +139,7 @@ bool Flow::may_send_at_once(MeshTime now) const {
   return sent_.bytes_in_flight() <= in_flight_max(now) + kAtOnceBytes;
 }
 
-LinkQuality Flow::quality(MeshTime) const {
+LinkQuality Flow::quality() const {
   LinkQuality quality;
   quality.rtt = sent_.smoothed_rtt();
   quality.loss_out = sent_.loss();

@@ -70,7 +70,7 @@ class Flow {
   double pace() const { return rate_.pace(); }
   // Proposed size of a full packet, IP headers included.
   std::size_t packet_bytes() const { return rate_.packet_bytes(); }
-  LinkQuality quality(MeshTime now) const;
+  LinkQuality quality() const;
 
   // For idle slots: the tickets of the oldest packet in flight that is worth sending once more,
   // as far as the budget of repeats allows. Send it with Sent::repeat.

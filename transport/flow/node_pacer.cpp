@@ -27,8 +27,6 @@ void NodePacer::want(Peer peer, bool wants) {
   }
 }
 
-void NodePacer::forget(Peer peer) { shares_.erase(peer); }
-
 std::optional<NodePacer::Peer> NodePacer::next(MeshTime now) {
   if (now < ready_at_) return {};
   // The richest in airtime among those that want; on a tie the one after the last.

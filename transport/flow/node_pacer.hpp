@@ -16,6 +16,8 @@ namespace warren::mesh {
 class NodePacer {
  public:
   using Peer = std::uint32_t;  // the owner's number for it
+  // The name of packets that go to all: no member may have it.
+  static constexpr Peer kGroup = UINT32_MAX;
 
   // The ceiling is for all that the node sends there.
   explicit NodePacer(std::optional<double> ceiling_bit_s) : ceiling_(ceiling_bit_s) {}
@@ -23,7 +25,6 @@ class NodePacer {
   // Who wants to send a paced packet now. A peer that cannot (nothing to send, no room in flight)
   // should be unset, or it stalls nobody but itself.
   void want(Peer peer, bool wants);
-  void forget(Peer peer);
 
   // No packet before this; the past means at once.
   MeshTime ready_at() const { return ready_at_; }

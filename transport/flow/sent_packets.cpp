@@ -140,7 +140,6 @@ void SentPackets::lose(Record& record, Settled& settled) {
   if (!record.packet.wants_ack) return;
   bytes_in_flight_ -= record.packet.ip_bytes;
   --packets_in_flight_;
-  ++settled.report.newly_lost;
   measure_loss(true);
   // Kept too: it may only be late.
   settled.lost.insert(settled.lost.end(), record.packet.tickets.begin(),

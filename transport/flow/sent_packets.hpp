@@ -42,8 +42,7 @@ struct AckReport {
   double acked_bytes = 0.0;       // IP bytes, from the first packet on
   double loss = 0.0;              // share of packets, lately
   std::size_t newly_acked = 0;    // packets, late ones included
-  std::size_t newly_lost = 0;
-  std::uint64_t end = 0;  // one more than the largest number acknowledged so far
+  std::uint64_t end = 0;          // one more than the largest number acknowledged so far
 };
 
 // What was sent to one peer and what became of it. Numbers rise by one with each packet. Loss is
@@ -85,7 +84,6 @@ class SentPackets {
   std::size_t packets_in_flight() const { return packets_in_flight_; }
 
   std::optional<Duration> smoothed_rtt() const { return smoothed_rtt_; }
-  Duration rtt_variation() const { return rtt_variation_; }
   // Share of packets lost lately.
   double loss() const { return loss_; }
 

@@ -17,6 +17,18 @@ constexpr int kSendsPerTurn = 128;
 constexpr Duration kWaitMin{20};
 constexpr Duration kWaitMax = std::chrono::hours(1);
 
+// A group datagram goes once to each kind of address that the interface has.
+EndpointConfig with_group_copies(const MeshRunner::Config& config) {
+  assert(config.endpoint.interfaces.size() == config.sockets.interfaces.size());
+  EndpointConfig endpoint = config.endpoint;
+  for (std::size_t i = 0; i < endpoint.interfaces.size(); ++i) {
+    const SocketInterface& sockets = config.sockets.interfaces[i];
+    const int copies = sockets.ipv4 + sockets.ipv6 + (sockets.ipv4 && sockets.broadcast);
+    endpoint.interfaces[i].group_copies = static_cast<std::size_t>(copies);
+  }
+  return endpoint;
+}
+
 }  // namespace
 
 struct MeshRunner::State : std::enable_shared_from_this<State> {
@@ -24,11 +36,9 @@ struct MeshRunner::State : std::enable_shared_from_this<State> {
         MapSource& source, OnEvent handler)
       : io(io_context),
         on_event(std::move(handler)),
-        endpoint(config.endpoint, std::move(keys), source),
+        endpoint(with_group_copies(config), std::move(keys), source),
         sockets(io, config.sockets, socket_dependencies()),
-        timer(io) {
-    assert(config.endpoint.interfaces.size() == config.sockets.interfaces.size());
-  }
+        timer(io) {}
 
   MeshSockets::Dependencies socket_dependencies() {
     return {[this](const MeshPath& from, std::span<const std::uint8_t> bytes) {

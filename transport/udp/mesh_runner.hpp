@@ -17,7 +17,8 @@ namespace warren::mesh {
 class MeshRunner {
  public:
   struct Config {
-    EndpointConfig endpoint;  // its interfaces in the same order as those of the sockets
+    // Its interfaces in the same order as those of the sockets, which also set their group_copies.
+    EndpointConfig endpoint;
     MeshSocketsConfig sockets;
   };
   using OnEvent = std::function<void(MeshEvent event)>;

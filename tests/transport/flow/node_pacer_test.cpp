@@ -92,8 +92,6 @@ TEST_CASE("a peer that wants nothing is never named") {
   pacer.want(1, true);
   pacer.want(1, false);
   CHECK_FALSE(pacer.next(MeshTime{seconds{1}}));
-  pacer.forget(1);
-  CHECK_FALSE(pacer.next(MeshTime{seconds{1}}));
 }
 
 }  // namespace

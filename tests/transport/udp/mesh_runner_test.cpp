@@ -3,6 +3,9 @@
 // the shell drives it.
 #include "transport/udp/mesh_runner.hpp"
 
+#include <future>
+#include <thread>
+
 #include <doctest/doctest.h>
 
 #include "tests/transport/udp/network_namespace.hpp"
@@ -58,6 +61,38 @@ TEST_CASE("nodes find each other and everything that they offer goes through, by
     });
     CHECK(ann.until([](const Events& events) { return count_of<ParcelDelivered>(events) == 1; }));
   }
+}
+
+TEST_CASE("what goes to several group addresses counts as often") {
+  const auto cable = CabledNamespaces::make();
+  if (!cable) return;
+  MeshSocketsConfig config = radio();
+  config.interfaces[0].broadcast = true;
+  RunnerNode ann(cable->first, 1, config);  // alone: beacons only
+  struct Sent {
+    std::uint64_t by_endpoint = 0;
+    std::uint64_t by_sockets = 0;
+    std::uint64_t datagrams = 0;
+  };
+  const auto sent = [&] {
+    std::promise<Sent> told;
+    ann.post([&](const Endpoint& endpoint, MeshTime) {
+      const SocketCounts& counts = ann.sockets().counts(0);
+      told.set_value(
+          {endpoint.counts().ip_bytes_out, counts.bytes_sent + 28 * counts.sent, counts.sent});
+    });
+    return told.get_future().get();
+  };
+  Sent before = sent();
+  for (int i = 0; i < 400 && before.datagrams == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    before = sent();
+  }
+  REQUIRE(before.datagrams > 0);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const Sent after = sent();
+  CHECK(after.datagrams >= before.datagrams + 4);
+  CHECK(after.by_endpoint - before.by_endpoint == after.by_sockets - before.by_sockets);
 }
 
 TEST_CASE("a cut cable is noticed, and the session goes on when it is whole again") {

@@ -38,6 +38,7 @@ class RunnerNode {
   void post(std::function<void(Endpoint&, MeshTime)> work) { runner_->post(std::move(work)); }
   // For the node's thread only.
   CountedMap& map() { return map_; }
+  const MeshSockets& sockets() const { return runner_->sockets(); }
   // True as soon as the events so far fulfil it, within twenty seconds.
   bool until(const std::function<bool(const std::vector<MeshEvent>&)>& condition);
 
