@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kVoxelDepth = 16;
 constexpr double kYawMost_rad = 1000.0;
+constexpr std::size_t kMaxNodeNameBytes = 32;
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
 // What is wrong with the path that this request names; nothing if nothing is.
@@ -45,10 +46,16 @@ tl::expected<ControlRequest, std::string> save_order(const control::MapSaveReque
     return tl::unexpected(std::string("map_save.source is unknown"));
   }
   const MapSource source = source_of(request.source());
+  if (!request.of().empty() && source == MapSource::kMerge) {
+    return tl::unexpected(std::string("map_save.of is of source SELF alone"));
+  }
+  if (request.of().size() > kMaxNodeNameBytes) {
+    return tl::unexpected(std::string("map_save.of is too long"));
+  }
   if (request.colours() == control::ROBOT && source == MapSource::kSelf) {
     return tl::unexpected(std::string("map_save.colours ROBOT is of source MERGE alone"));
   }
-  return SaveOrder{request.path(), colours_of(request.colours()), source};
+  return SaveOrder{request.path(), colours_of(request.colours()), source, request.of()};
 }
 
 tl::expected<ControlRequest, std::string> load_order(const control::MapLoadRequest& request) {
@@ -177,6 +184,8 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return move_order(request.map_move());
     case control::Request::kCells:
       return cells_question(request.cells());
+    case control::Request::kFleetStatus:
+      return FleetStatusQuestion{};
     case control::Request::kGround:
       return ground_question(request.ground());
     default:

@@ -22,11 +22,13 @@ inline constexpr std::size_t kMaxControlFrameBytes = 1048576;
 struct StatusQuestion {};
 struct MapInfoQuestion {};
 struct ConfigQuestion {};
+struct FleetStatusQuestion {};
 enum class MapSource : std::uint8_t { kSelf, kMerge };
 struct SaveOrder {
   std::filesystem::path path;  // absolute, without control characters
   PictureColours colours = PictureColours::kHeight;
   MapSource source = MapSource::kSelf;
+  std::string of{};  // name of a node: its layer as it is copied here; empty: of this node
 };
 struct LoadOrder {
   std::filesystem::path path;  // absolute, without control characters
@@ -71,9 +73,10 @@ struct MoveOrder {
   LayerId layer;
   LayerShift shift;
 };
-using ControlRequest = std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder,
-                                    GroundQuestion, LayerDiffQuestion, LoadOrder, FlushOrder,
-                                    RetractOrder, RestoreOrder, MoveOrder, CellsQuestion>;
+using ControlRequest =
+    std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion,
+                 LayerDiffQuestion, LoadOrder, FlushOrder, RetractOrder, RestoreOrder, MoveOrder,
+                 CellsQuestion, FleetStatusQuestion>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -118,6 +118,7 @@ void fill(const LoadedLayer& layer, control::LoadedLayer& message) {
   message.set_voxels_occupied(layer.voxels.occupied);
   message.set_retracted(layer.retracted);
   message.set_out_of_reach(layer.out_of_reach);
+  message.set_unplaced(layer.unplaced);
   add_pose(layer.T_fleet_layer, *message.mutable_t_fleet_layer());
 }
 

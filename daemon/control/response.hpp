@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/exchange/map_writer.hpp"
 #include "daemon/fleet/fleet_map.hpp"
+#include "daemon/fleet/fleet_report.hpp"
 #include "daemon/ingest/server_status.hpp"
 #include "daemon/mapper/mapper.hpp"
 
@@ -35,6 +37,8 @@ std::string encode_map_loaded(const LoadedLayer& layer);
 std::string encode_loaded_layer(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_cells(const CellsAnswer& answer);
+// None: the mesh is off.
+std::string encode_fleet_status(const std::optional<FleetReport>& report);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);
 

@@ -26,6 +26,7 @@ class ControlService {
   // A snapshot is a copy of the map, and a layer being loaded another one: memory bounds how many
   // may wait for the disk.
   static constexpr std::size_t kMaxPendingFiles = 2;
+  static constexpr const char* kTooBusy = "too many questions wait; try again";
 
   struct Dependencies {
     asio::io_context& io;
@@ -59,10 +60,12 @@ class ControlService {
   void answer(const RetractOrder& order, const Respond& respond);
   void answer(const RestoreOrder& order, const Respond& respond);
   void answer(const MoveOrder& order, const Respond& respond);
+  void answer(const FleetStatusQuestion& question, const Respond& respond);
   using LoadedLayersOrder = std::function<LoadedLayers::Result(LoadedLayers&)>;
   void change_loaded(const LoadedLayersOrder& order, const Respond& respond);
   void load(const LoadOrder& order, const Respond& done);
   void save_layer(const SaveOrder& order, const Respond& done);
+  void save_copy(const SaveOrder& order, const Respond& done);
   void save_merged(const SaveOrder& order, const Respond& done);
   Respond begin_file_work(const Respond& respond);
   void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,

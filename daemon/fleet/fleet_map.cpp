@@ -30,6 +30,7 @@ void FleetMap::tick(std::span<const LayerChanges> changes) {
   rest_quiet_layers();
   if (changes.empty()) return;
   gravity_map_ = changes.back().gravity_map;
+  position_map_ = changes.back().position_map;
   place_layers();
 }
 
@@ -54,10 +55,16 @@ OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
   const Eigen::Vector3d origin_map = changes.origin.position_map(config_.resolution.metres());
   merge_origin_map_ = origin_map;
   merge_.open_self_layer(changes.number, Eigen::Isometry3d::Identity());
-  return own_
-      .try_emplace(changes.number, id, config_.resolution, origin_map, config_.publishing,
-                   config_.rest_after_ticks)
-      .first->second;
+  OwnLayer& opened = own_.try_emplace(changes.number, id, config_.resolution, origin_map,
+                                      config_.publishing, config_.rest_after_ticks)
+                         .first->second;
+  opened_(opened);
+  return opened;
+}
+
+std::optional<Eigen::Vector3d> FleetMap::position_fleet() const {
+  if (own_.empty() || !position_map_) return std::nullopt;
+  return own_.rbegin()->second.T_fleet_map() * *position_map_;
 }
 
 Eigen::Isometry3d FleetMap::T_merge_fleet() const {
@@ -178,8 +185,12 @@ std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) 
 std::optional<EncodedLayer> FleetMap::encoded_layer() const {
   const Replica* const layer = current();
   if (layer == nullptr) return std::nullopt;
-  const MapCounts known = counts_of(*layer);
-  return EncodedLayer{encode_layer(*layer), known.free + known.occupied};
+  return encoded(*layer);
+}
+
+EncodedLayer FleetMap::encoded(const Replica& layer) {
+  const MapCounts known = counts_of(layer);
+  return {encode_layer(layer), known.free + known.occupied};
 }
 
 }  // namespace warren

@@ -96,6 +96,8 @@ class FleetMap {
         draw_incarnation_(std::move(draw_incarnation)),
         merge_({config.resolution.metres()}),
         loaded_(merge_, config.rest_after_ticks) {}
+  // `told` is called with every own layer when it is opened, before it publishes anything.
+  void on_open(std::function<void(const OwnLayer&)> told) { opened_ = std::move(told); }
   FleetMap(const FleetMap&) = delete;
   FleetMap& operator=(const FleetMap&) = delete;
 
@@ -107,6 +109,13 @@ class FleetMap {
   // Into the merge-map, where the layer's pose says.
   LoadedLayers::Result load(Replica layer, std::string file);
   LoadedLayers& loaded() { return loaded_; }
+  const LoadedLayers& loaded() const { return loaded_; }
+  // Takes over where the layers of others lie now.
+  void place_others() { loaded_.place(T_merge_fleet()); }
+
+  const std::map<std::uint32_t, OwnLayer>& own_layers() const { return own_; }
+  // Where this node's sensor was at the scan taken last.
+  std::optional<Eigen::Vector3d> position_fleet() const;
 
   // The question is about the map frame of the newest own layer, and without gravity. Fills the
   // merge-map's cache.
@@ -119,6 +128,7 @@ class FleetMap {
   std::shared_ptr<const MergedSnapshot> merged_snapshot();
   // A copy of the current own layer, with its pose. Nothing before the first scan.
   std::optional<EncodedLayer> encoded_layer() const;
+  static EncodedLayer encoded(const Replica& layer);
   // From the revision that the copy holds at `keys` on. Nothing before the first scan.
   std::optional<LayerDiff> diff(const KeyInterval& keys, Revision from) const;
 
@@ -135,7 +145,9 @@ class FleetMap {
 
   FleetMapConfig config_;
   DrawIncarnation draw_incarnation_;
-  std::map<std::uint32_t, OwnLayer> own_;  // the last is the current one
+  std::function<void(const OwnLayer&)> opened_ = [](const OwnLayer&) {};
+  std::optional<Eigen::Vector3d> position_map_;  // of the newest own layer
+  std::map<std::uint32_t, OwnLayer> own_;        // the last is the current one
   // The merge-map's key (0, 0, 0) in the map frame: the newest own layer's, so that what is near it
   // has keys. Metres, whole blocks.
   Eigen::Vector3d merge_origin_map_ = Eigen::Vector3d::Zero();

@@ -65,6 +65,7 @@ tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::u
       pipeline_.run(*prepared, in_layer(scan.gravity_map), into.voxels).integration;
   ++into.scans;
   into.gravity_map = scan.gravity_map;
+  into.position_map = sensor_position_map(scan);
 
   for (std::size_t i = 0; i < kRejectionCount; ++i)
     rejected_[i] += rejected[i] + report.rejected[i];
@@ -96,7 +97,7 @@ tl::expected<Layer*, std::string> LayeredMap::open_layer(const Scan& scan,
   // A copy leaves the scratch memory of integration behind: frozen layers need none.
   if (!layers_.empty()) layers_.back()->voxels = SelfMap(layers_.back()->voxels);
   layers_.push_back(std::make_unique<Layer>(
-      Layer{frame_epoch, *origin, SelfMap(config_), 0, Pose{}, scan.gravity_map}));
+      Layer{frame_epoch, *origin, SelfMap(config_), 0, T_fleet_map_, scan.gravity_map}));
   return layers_.back().get();
 }
 
@@ -132,7 +133,8 @@ std::vector<LayerChanges> LayeredMap::take_changes() {
     const bool is_current = i + 1 == layers_.size();
     if (layer.handed_over == now && !is_current) continue;
     changes.push_back({static_cast<std::uint32_t>(i), layer.origin, layer.T_fleet_map,
-                       layer.gravity_map, blocks_changed_since(layer.voxels, layer.handed_over)});
+                       layer.gravity_map, blocks_changed_since(layer.voxels, layer.handed_over),
+                       layer.position_map});
     layer.handed_over = now;
   }
   return changes;

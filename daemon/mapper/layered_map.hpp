@@ -23,6 +23,7 @@ inline constexpr const char* kNoMapYet = "there is no map yet: no scan has been 
 struct MappingConfig {
   SelfMapConfig map;
   TerrainConfig terrain = TerrainConfig::robust();
+  Pose T_fleet_map{};  // of a layer that is opened, until a pose update comes
 };
 
 // What was mapped in one frame epoch.
@@ -32,8 +33,9 @@ struct Layer {
   SelfMap voxels;
   std::uint64_t scans = 0;
   Pose T_fleet_map;
-  Eigen::Vector3d gravity_map{0.0, 0.0, -1.0};  // of the scan taken last
-  std::uint32_t handed_over = 0;                // the self-map's cursor at the last hand-over
+  Eigen::Vector3d gravity_map{0.0, 0.0, -1.0};    // of the scan taken last
+  std::uint32_t handed_over = 0;                  // the self-map's cursor at the last hand-over
+  std::optional<Eigen::Vector3d> position_map{};  // of the sensor, at the scan taken last
 };
 
 // What changed in one layer since it was last handed over, exactly.
@@ -43,6 +45,7 @@ struct LayerChanges {
   Pose T_fleet_map;
   Eigen::Vector3d gravity_map;  // of the scan taken last
   std::vector<CodedBlock> blocks;
+  std::optional<Eigen::Vector3d> position_map{};  // of the sensor, at the scan taken last
 };
 
 // The current layer and where it lies, in numbers.
@@ -74,7 +77,7 @@ class LayeredMap {
   static constexpr std::size_t kMaxLayers = 256;
 
   explicit LayeredMap(const MappingConfig& config)
-      : config_(config.map), pipeline_(config.terrain) {}
+      : config_(config.map), T_fleet_map_(config.T_fleet_map), pipeline_(config.terrain) {}
 
   // Points used; or why the scan as a whole was not, in words for the client.
   tl::expected<std::uint64_t, std::string> integrate(Scan scan, std::uint64_t frame_epoch,
@@ -101,6 +104,7 @@ class LayeredMap {
   tl::expected<Layer*, std::string> open_layer(const Scan& scan, std::uint64_t frame_epoch);
 
   SelfMapConfig config_;
+  Pose T_fleet_map_;
   std::vector<std::unique_ptr<Layer>> layers_;  // the last is the current one
   ScanPreparer preparer_;
   ScanPipeline pipeline_;

@@ -160,4 +160,63 @@ TEST_CASE("an own layer that lies beyond the newest one's reach is left out of t
   CHECK(fleet.report().poses_refused > 0);
 }
 
+TEST_CASE("a copy counts once its origin has said where it lies, and follows what it says") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {floor_block({5, 5, 5}, 1)});
+  Replica copy(LayerId{99, 2, 6}, kDefaultResolution);
+  const auto added = fleet.loaded().add_copy(copy);
+  REQUIRE(added.has_value());
+  CHECK(added->unplaced);
+  CHECK_FALSE(fleet.loaded().add_copy(copy).has_value());
+  Replica writer(copy.id(), kDefaultResolution);
+  const auto write = [&](const BlockKey& key) {
+    const Revision before = writer.holdings().at(0);
+    writer.publish({{floor_block(key, 1)}});
+    const auto packet = writer.encode({{}, before});
+    REQUIRE(copy.apply(copy.id(), packet->bytes) == ApplyResult::kApplied);
+  };
+  write({0, 0, 0});
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kUnknown);
+  const Eigen::Vector3d origin = kFarOrigin.position_map(0.1);
+  copy.pose().update_origin({1, 99, {origin, Eigen::Quaterniond::Identity()}});
+  fleet.place_others();
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kTraversable);
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kUnknown);
+  write({1, 0, 0});
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
+  copy.pose().update_origin(
+      {2, 99, {origin + Eigen::Vector3d(0.8, 0.0, 0.0), Eigen::Quaterniond::Identity()}});
+  fleet.place_others();
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kUnknown);
+  CHECK(fleet.ground(question_at(2))->validity == Validity::kTraversable);
+
+  REQUIRE(fleet.loaded().retract(copy.id()).has_value());
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kUnknown);
+  write({2, 0, 0});
+  CHECK(fleet.ground(question_at(3))->validity == Validity::kUnknown);
+  const auto restored = fleet.loaded().restore(copy.id());
+  REQUIRE(restored.has_value());
+  CHECK(restored->voxels.occupied == 3 * 64);
+  CHECK(fleet.ground(question_at(3))->validity == Validity::kTraversable);
+  CHECK(fleet.loaded().find(copy.id())->file.empty());
+  CHECK(fleet.loaded().list().empty());
+}
+
+TEST_CASE("a copy that lies beyond reach at first comes in when it is moved within it") {
+  FleetMap fleet = fleet_map();
+  LayerChanges changes = changes_of({floor_block({0, 0, 0}, 1)});
+  changes.origin = {std::int64_t{1} << 40, 0, 0};
+  fleet.tick({&changes, 1});
+  Replica copy = far_layer({0.0, 0.0, 0.0});
+  const auto added = fleet.loaded().add_copy(copy);
+  REQUIRE(added.has_value());
+  CHECK(added->out_of_reach);
+  const auto own_only = merged(fleet).size();
+  changes.origin = kFarOrigin;
+  changes.number = 1;
+  fleet.tick({&changes, 1});
+  CHECK_FALSE(fleet.loaded().find(copy.id())->out_of_reach);
+  CHECK(merged(fleet).size() > own_only);
+}
+
 }  // namespace warren

@@ -14,6 +14,8 @@ struct Options {
   std::string socket = "/run/warren/control.sock";
   bool json = false;
   bool merge = false;
+  bool watch = false;
+  std::string of;
   std::string file;
   std::string colours = "height";
   std::string layer;
@@ -80,7 +82,12 @@ class MapCommands {
                      "Of a .png: height, cost of the ground, or robot")
         ->check(CLI::IsMember({"height", "cost", "robot"}))
         ->capture_default_str();
-    save_->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
+    auto* const merge =
+        save_->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
+    save_
+        ->add_option("--of", options.of,
+                     "Another node: its newest layer as it is copied here; or merge")
+        ->excludes(merge);
     load_ = map->add_subcommand("load", "Put a layer of an earlier mission into the merge-map");
     load_->add_option("FILE", options.file, "Ending in .layer, .bt or .ot")->required();
     retract_ = add_on_layer(*map, "retract", "Take a loaded layer out of this node's merge-map");
@@ -97,7 +104,10 @@ class MapCommands {
     const Options& given = options_;
     const auto& [x_m, y_m, z_m, yaw_deg] = given.shift;
     if (info_->parsed()) return MapInfoCommand{given.json};
-    if (save_->parsed()) return MapSaveCommand{given.file, given.colours, given.merge};
+    if (save_->parsed()) {
+      const bool of_merge = given.merge || given.of == "merge";
+      return MapSaveCommand{given.file, given.colours, of_merge, of_merge ? "" : given.of};
+    }
     if (load_->parsed()) return MapLoadCommand{given.file};
     if (retract_->parsed()) return MapRetractCommand{given.layer};
     if (restore_->parsed()) return MapRestoreCommand{given.layer};
@@ -110,7 +120,7 @@ class MapCommands {
     auto* const command = map.add_subcommand(name, text);
     command
         ->add_option("LAYER", options_.layer,
-                     "Its file, or the beginning of its id as status shows it")
+                     "Its file, the name of the node that writes it, or the beginning of its id")
         ->required();
     return command;
   }
@@ -193,6 +203,13 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const print = config->add_subcommand("print", "Every key, of FILE or of the daemon");
   print->add_option("FILE", options.file);
   const LayerCommands layer(app, options);
+  auto* const fleet = app.add_subcommand("fleet", "The fleet")->require_subcommand(1);
+  auto* const fleet_status = add_with_json(
+      *fleet, "status", "Who is there, and how far their maps have come here", options);
+  fleet_status->add_flag("--watch", options.watch, "Again every second, until the daemon ends");
+  auto* const key = app.add_subcommand("key", "The fleet's key")->require_subcommand(1);
+  auto* const key_new = key->add_subcommand("new", "Make one; every member needs a copy of it");
+  key_new->add_option("FILE", options.file)->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -209,6 +226,8 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
     return options.cells;
   }
   if (const auto command = layer.parsed()) return *command;
+  if (fleet_status->parsed()) return FleetStatusCommand{options.json, options.watch};
+  if (key_new->parsed()) return KeyNewCommand{options.file};
   if (check->parsed()) return ConfigCheckCommand{options.file};
   return ConfigPrintCommand{options.file};
 }

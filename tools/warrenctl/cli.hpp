@@ -22,11 +22,20 @@ struct MapSaveCommand {
   std::filesystem::path file;
   std::string colours = "height";  // of a picture: height, cost, robot
   bool of_merge = false;
+  std::string of{};  // another node's name
+};
+struct FleetStatusCommand {
+  bool json = false;
+  bool watch = false;  // again every second
+};
+struct KeyNewCommand {
+  std::filesystem::path file;
 };
 struct MapLoadCommand {
   std::filesystem::path file;
 };
-// LAYER is the beginning of a loaded layer's id as status shows it, or its file.
+// LAYER is the beginning of a layer's id as status shows it, the file of a loaded one, or the name
+// of the node that writes it.
 struct MapRetractCommand {
   std::string layer;
 };
@@ -70,7 +79,8 @@ using CtlCommand =
     std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
                  LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
-                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand, ExitCommand>;
+                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand,
+                 FleetStatusCommand, KeyNewCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

@@ -191,11 +191,14 @@ std::string text_of(const control::LayerId& id) {
 
 std::string sentence_of(const control::LoadedLayer& layer) {
   std::ostringstream out;
-  out << text_of(layer.layer()) << " of " << layer.file() << ": " << layer.voxels_occupied()
-      << " occupied and " << layer.voxels_free() << " free voxels of " << layer.resolution_m()
-      << " m, ";
+  out << text_of(layer.layer())
+      << (layer.file().empty() ? std::string(", a copy") : " of " + layer.file()) << ": "
+      << layer.voxels_occupied() << " occupied and " << layer.voxels_free() << " free voxels of "
+      << layer.resolution_m() << " m, ";
   if (layer.retracted()) {
     out << "retracted";
+  } else if (layer.unplaced()) {
+    out << "and where it lies is not known yet";
   } else {
     out << (layer.out_of_reach() ? "too far off for the merge-map" : "in the merge-map");
   }

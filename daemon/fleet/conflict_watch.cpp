@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/fleet/conflict_watch.hpp"
+
+#include <utility>
+
+namespace warren {
+namespace {
+
+// Of the codes of one layer, by places in the frame of another.
+class OwnCodes {
+ public:
+  OwnCodes(const Replica& own, const Eigen::Isometry3d& T_own_other, double other_m)
+      : own_(own),
+        own_lattice_(own.resolution().metres()),
+        other_lattice_(other_m),
+        T_own_other_(T_own_other) {}
+
+  VoxelState state(const VoxelKey& key_other) {
+    const Eigen::Vector3d centre(other_lattice_.centre_m(key_other.x),
+                                 other_lattice_.centre_m(key_other.y),
+                                 other_lattice_.centre_m(key_other.z));
+    const Eigen::Vector3d there = T_own_other_ * centre;
+    const auto key = own_lattice_.key_of(there.x(), there.y(), there.z());
+    if (!key) return VoxelState::kUnknown;
+    const BlockOrdinal block = ordinal_of(block_of(*key));
+    return own_.codes_in_place(block).at(morton9(key->x, key->y, key->z)).state();
+  }
+
+ private:
+  const Replica& own_;
+  Lattice own_lattice_;
+  Lattice other_lattice_;
+  Eigen::Isometry3d T_own_other_;
+};
+
+VoxelKey voxel_at(const VoxelKey& low, std::uint32_t place) {
+  const VoxelKey in_block = place_of_morton9(place);
+  return {low.x + in_block.x, low.y + in_block.y, low.z + in_block.z};
+}
+
+}  // namespace
+
+std::optional<LayerId> ConflictWatch::advance(const FleetMap& map) {
+  if (map.own_layers().empty()) return std::nullopt;
+  const Replica* layer = at_ ? map.loaded().replica(*at_) : nullptr;
+  if (layer == nullptr) {
+    layer = next_layer(map);
+    if (layer == nullptr) return std::nullopt;
+    next_ = 0;
+    round_ = {};
+  }
+  at_ = layer->id();
+  next_ = look_at(map, *layer);
+  if (next_ != kOrdinalEnd) return std::nullopt;
+  const LayerId done = *at_;
+  const Replica* const following = next_layer(map);
+  at_ = following == nullptr ? std::nullopt : std::optional(following->id());
+  next_ = 0;
+  const Round round = std::exchange(round_, {});
+  if (round.known < kVoxelsMin) {
+    scores_.erase(done);
+    return std::nullopt;
+  }
+  scores_[done] = static_cast<double>(round.free) / static_cast<double>(round.known);
+  return done;
+}
+
+std::optional<double> ConflictWatch::score(const LayerId& layer) const {
+  const auto found = scores_.find(layer);
+  return found == scores_.end() ? std::nullopt : std::optional(found->second);
+}
+
+BlockOrdinal ConflictWatch::look_at(const FleetMap& map, const Replica& layer) {
+  const auto lies = map.loaded().find(layer.id());
+  const auto T_fleet_layer = lies ? lies->T_fleet_layer.checked() : std::nullopt;
+  if (!T_fleet_layer || lies->unplaced) return kOrdinalEnd;
+  const OwnLayer& own = map.own_layers().rbegin()->second;
+  OwnCodes codes(own.layer(), own.T_fleet_layer().inverse() * *T_fleet_layer,
+                 layer.resolution().metres());
+  std::size_t left = kBlocksPerTick;
+  BlockOrdinal next = kOrdinalEnd;
+  layer.for_each_changed({next_, kOrdinalEnd}, {}, [&](BlockOrdinal block, const LayerBlock& told) {
+    if (left-- == 0) {
+      next = block;
+      return false;
+    }
+    const VoxelKey low = first_voxel_of(block_key_of(block));
+    told.codes.for_each_known([&](std::uint32_t place, VoxelCode code) {
+      if (code.state() != VoxelState::kOccupied) return;
+      const VoxelState known = codes.state(voxel_at(low, place));
+      round_.known += known == VoxelState::kUnknown ? 0 : 1;
+      round_.free += known == VoxelState::kFree ? 1 : 0;
+    });
+    return true;
+  });
+  return next;
+}
+
+// Round and round by their ids.
+const Replica* ConflictWatch::next_layer(const FleetMap& map) const {
+  const Replica* first = nullptr;
+  const Replica* following = nullptr;
+  map.loaded().for_each([&](const Replica& layer) {
+    if (first == nullptr) first = &layer;
+    if (following == nullptr && at_ && layer.id() > *at_) following = &layer;
+  });
+  return following != nullptr ? following : first;
+}
+
+}  // namespace warren

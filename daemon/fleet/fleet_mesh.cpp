@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/fleet/fleet_mesh.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <asio/post.hpp>
+
+#include "daemon/log.hpp"
+#include "daemon/replication/holdings_walk.hpp"
+#include "transport/visitor.hpp"
+
+namespace warren {
+namespace {
+
+using mesh::MeshRunner;
+using replication::HeldLayer;
+
+constexpr std::uint16_t kStatusKey = 1;  // of telemetry; replication's begin at kLayerKeys
+constexpr Duration kMembersEvery = std::chrono::seconds(1);
+constexpr Duration kLookWhileDraining = std::chrono::milliseconds(50);
+constexpr std::size_t kPacketBytes = 1200;
+
+std::int64_t wall_clock_us() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+replication::Item item_of(const NodeStatus& status) {
+  constexpr std::string_view kName = "status";
+  replication::Item item;
+  item.kind = replication::ItemKind::kStatus;
+  item.name.assign(kName.begin(), kName.end());
+  item.bytes = encode(status);
+  return item;
+}
+
+// Whether this member lacks something of the layer that it wants, or has not acknowledged it.
+bool lacks(const replication::Subscription& subscription, const HeldLayer& layer) {
+  if (!subscription.wanted() || !layer.may_be_told()) return false;
+  const Replica& replica = layer.replica();
+  if (subscription.under_way() > 0 || subscription.next_fresh(replica, kPacketBytes)) return true;
+  return subscription.wants_everything() &&
+         replication::holds_more(replica.holdings(), subscription.believed());
+}
+
+}  // namespace
+
+FleetMesh::FleetMesh(asio::io_context& io, const FleetMeshConfig& config, FleetMap& map,
+                     StorePort& store)
+    : io_(io),
+      config_(config),
+      map_(map),
+      store_(store),
+      replication_(config.replication),
+      runner_(io, config.runner, std::make_shared<mesh::PresharedKeys>(config.key), replication_,
+              [this](const mesh::MeshEvent& event) { on_event(event); }),
+      timer_(io) {}
+
+void FleetMesh::restore(RestoredFleet restored) {
+  for (auto& copy : restored.copies) {
+    if (!replication_.restore_copy(std::move(copy))) ++copies_refused_;
+  }
+  if (!replication_.restore_logs(MeshRunner::now(), restored.logs)) {
+    log_warning("fleet: more logs are stored than there is room for");
+  }
+  for (const replication::StoredLog& log : restored.logs) {
+    for (const auto& [number, item] : log.items) {
+      if (item && item->kind == replication::ItemKind::kStatus) {
+        hear(MemberId{log.id.origin}, item->bytes);
+      }
+    }
+  }
+}
+
+void FleetMesh::start() {
+  if (replication_.log_book().own() == nullptr) {
+    (void)replication_.open_log(config_.log_incarnation);
+  }
+  adopt_copies();
+  runner_.start();
+  turn_soon();
+}
+
+void FleetMesh::stop() {
+  stopped_ = true;
+  timer_.cancel();
+  runner_.stop();
+}
+
+void FleetMesh::on_opened(const OwnLayer& layer) {
+  if (!replication_.add_own(layer.layer())) {
+    log_error("fleet: too many layers: this node's newest is not shared");
+  }
+}
+
+void FleetMesh::on_ticked() {
+  const MeshTime now = MeshRunner::now();
+  for (const auto& [number, own] : map_.own_layers()) {
+    Told& told = told_[number];
+    const Replica& layer = own.layer();
+    const Revision revision = layer.holdings().at(0);
+    if (std::exchange(told.revision, revision) != revision) {
+      replication_.on_published(now, layer.id());
+    }
+    const WrittenPose& pose = layer.pose().origin();
+    if (pose.revision == told.pose) continue;
+    const bool said =
+        replication_.append(now, replication::item_of({layer.id(), false, pose})).has_value();
+    if (said) told.pose = pose.revision;
+  }
+  if (const auto position = map_.position_fleet()) replication_.on_position(now, *position);
+  watch_conflicts();
+  speak(now);
+  turn_soon();
+}
+
+void FleetMesh::speak(MeshTime now) {
+  NodeStatus status{config_.name, config_.role, wall_clock_us(), std::nullopt, std::nullopt};
+  if (!map_.own_layers().empty()) {
+    const Replica& layer = map_.own_layers().rbegin()->second.layer();
+    status.layer = {layer.id(), layer.holdings().at(0),
+                    replication::prefix_of(layer.digest().root())};
+  }
+  if (const auto position = map_.position_fleet()) status.position_fleet = position->cast<float>();
+  const OwnWord::Tell tell = word_.judge(now, status, drained_ != nullptr);
+  nodes_.note(config_.replication.self, status);
+  if (tell.neighbours) run(now, replication::SetTelemetry{kStatusKey, encode(status)});
+  if (tell.fleet) (void)replication_.append(now, item_of(status));
+}
+
+void FleetMesh::on_event(const mesh::MeshEvent& event) {
+  const auto* const telemetry = std::get_if<mesh::TelemetryArrived>(&event);
+  if (telemetry != nullptr && telemetry->key == kStatusKey) hear(telemetry->from, telemetry->bytes);
+  log_event(event);
+  replication_.on_event(MeshRunner::now(), event);
+  turn_soon();
+}
+
+void FleetMesh::log_event(const mesh::MeshEvent& event) const {
+  std::visit(mesh::Visitor{[&](const mesh::MemberUp& up) {
+                             log_info("fleet: " + name_of(up.member) + " is here");
+                           },
+                           [&](const mesh::MemberDown& down) {
+                             log_info("fleet: " + name_of(down.member) + " is silent");
+                           },
+                           [&](const mesh::MemberRestarted& restarted) {
+                             log_info("fleet: " + name_of(restarted.member) + " has restarted");
+                           },
+                           [](const auto&) {}},
+             event);
+}
+
+std::string FleetMesh::name_of(MemberId member) const {
+  const NodeBook::Node* const node = nodes_.find(member);
+  return node != nullptr ? node->status.name : "node " + std::to_string(member.number);
+}
+
+void FleetMesh::hear(MemberId from, std::span<const std::uint8_t> bytes) {
+  const auto status = read_node_status(bytes);
+  status ? (void)nodes_.note(from, *status) : (void)++unknown_statuses_;
+}
+
+void FleetMesh::turn_soon() {
+  if (stopped_ || std::exchange(turn_posted_, true)) return;
+  asio::post(io_, [this] {
+    turn_posted_ = false;
+    turn();
+  });
+}
+
+void FleetMesh::turn() {
+  if (stopped_) return;
+  const MeshTime now = MeshRunner::now();
+  if (now >= members_told_ + kMembersEvery) {
+    members_told_ = now;
+    replication_.on_members(runner_.endpoint().members());
+  }
+  commit();
+  replication_.advance(now);
+  run_commands(now);
+  adopt_copies();
+  take_items();
+  runner_.run();
+  if (drained_ && (now >= drain_until_ || is_drained())) {
+    stop();
+    return std::exchange(drained_, nullptr)();
+  }
+  wait();
+}
+
+void FleetMesh::commit() {
+  if (storing_ || !replication_.has_unstored()) return;
+  storing_ = true;
+  const replication::StoreBatch batch = replication_.take_batch();
+  store_.write(batch, [this, number = batch.number](bool stored) { on_committed(number, stored); });
+}
+
+void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
+  storing_ = false;
+  ++(stored ? batches_stored_ : batches_failed_);
+  if (stored) replication_.on_stored(MeshRunner::now(), batch);
+  turn_soon();
+}
+
+void FleetMesh::run_commands(MeshTime now) {
+  while (const auto command = replication_.poll_command()) run(now, *command);
+}
+
+void FleetMesh::run(MeshTime now, const replication::Command& command) {
+  mesh::Endpoint& endpoint = runner_.endpoint();
+  std::visit(mesh::Visitor{
+                 [&](const replication::SetTelemetry& set) {
+                   if (!endpoint.set_telemetry(now, set.key, set.bytes)) ++telemetry_refused_;
+                 },
+                 [&](const replication::Wake& wake) { endpoint.wake(now, wake.member); },
+                 [&](const replication::WakeGroup& wake) { endpoint.wake_group(wake.interface); },
+                 [&](const replication::SendParcel& parcel) {
+                   const auto key =
+                       endpoint.send_parcel(now, parcel.to, parcel.priority, parcel.bytes);
+                   replication_.on_parcel_sent(
+                       parcel.number, key ? std::optional<mesh::ParcelKey>(*key) : std::nullopt);
+                 },
+                 [&](const replication::FinishParcel& finish) {
+                   endpoint.finish_parcel(now, finish.from, finish.key);
+                 }},
+             command);
+}
+
+void FleetMesh::take_items() {
+  bool poses = false;
+  while (const auto arrived = replication_.poll_item()) {
+    poses = poses || arrived->item.kind == replication::ItemKind::kLayerPose;
+    if (arrived->item.kind == replication::ItemKind::kStatus) {
+      hear(MemberId{arrived->log.origin}, arrived->item.bytes);
+    }
+  }
+  if (poses) map_.place_others();
+}
+
+void FleetMesh::adopt_copies() {
+  const auto& layers = replication_.book().layers();
+  for (; adopted_ < layers.size(); ++adopted_) {
+    if (!layers[adopted_]->copy) continue;
+    Replica& copy = *layers[adopted_]->copy;
+    take_poses(copy);
+    const auto added = map_.loaded().add_copy(copy);
+    if (added) continue;
+    ++copies_refused_;
+    log_warning("fleet: a layer of " + name_of({copy.id().origin}) +
+                " is kept, but not merged: " + added.error());
+  }
+}
+
+// Those that came before the layer was known.
+void FleetMesh::take_poses(Replica& copy) {
+  for (const auto& held : replication_.log_book().logs()) {
+    for (const auto& [number, item] : held->log.items()) {
+      const auto pose = replication::read_layer_pose(item);
+      if (!pose || pose->layer != copy.id()) continue;
+      (void)(pose->correction ? copy.pose().update_correction(pose->pose)
+                              : copy.pose().update_origin(pose->pose));
+    }
+  }
+}
+
+void FleetMesh::drain(Duration at_most, std::function<void()> done) {
+  drain_until_ = MeshRunner::now() + at_most;
+  drained_ = std::move(done);
+  speak(MeshRunner::now());
+  turn_soon();
+}
+
+bool FleetMesh::is_drained() const {
+  if (storing_ || replication_.has_unstored()) return false;
+  const auto& layers = replication_.book().layers();
+  for (const auto& [id, peer] : replication_.peers()) {
+    if (!peer.up) continue;
+    for (const auto& [slot, subscription] : peer.subscriptions) {
+      if (slot < layers.size() && lacks(subscription, *layers[slot])) return false;
+    }
+  }
+  return true;
+}
+
+void FleetMesh::wait() {
+  const MeshTime now = MeshRunner::now();
+  MeshTime until = std::min(replication_.next_deadline(), members_told_ + kMembersEvery);
+  if (drained_) until = std::min({until, now + kLookWhileDraining, drain_until_});
+  timer_.expires_at(std::max(until, now + Duration(1000)));
+  timer_.async_wait([this](std::error_code cancelled) {
+    if (!cancelled) turn();
+  });
+}
+
+}  // namespace warren
