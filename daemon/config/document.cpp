@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/config/document.hpp"
 
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -119,7 +120,6 @@ template <typename Owner>
 struct ListRule {
   std::string_view key;
   std::span<const Key<Owner>> keys;
-  std::size_t fewest = 0;
   std::size_t most = 0;
   std::string_view entries;  // what they are called, and one of them
   std::string_view entry;
@@ -137,16 +137,17 @@ void read_entry_of(const ListRule<Owner>& rule, const YAML::Node& node, const st
   OwnerReader<Owner>(owner, rule.keys, place + ".", faults).read_section(node, "", no_other);
 }
 
+// Nothing if it is no such list; faults within its entries are told, but it is one.
 template <typename Owner>
-std::vector<Owner> read_list(const ListRule<Owner>& rule, const YAML::Node& node,
-                             FaultList& faults) {
-  std::vector<Owner> owners;
+std::optional<std::vector<Owner>> read_list(const ListRule<Owner>& rule, const YAML::Node& node,
+                                            FaultList& faults) {
   const std::string key(rule.key);
-  if (!node.IsSequence() || node.size() < rule.fewest || node.size() > rule.most) {
-    faults.add(key, "must be a list of " + std::to_string(rule.fewest) + " to " +
-                        std::to_string(rule.most) + " " + std::string(rule.entries));
-    return owners;
+  if (!node.IsSequence() || node.size() > rule.most) {
+    faults.add(key, "must be a list of at most " + std::to_string(rule.most) + " " +
+                        std::string(rule.entries));
+    return std::nullopt;
   }
+  std::vector<Owner> owners;
   for (const auto& item : node) {
     const std::string place = key + "[" + std::to_string(owners.size()) + "]";
     read_entry_of(rule, item, place, owners.emplace_back(), faults);
@@ -163,17 +164,19 @@ Config read_document(const YAML::Node& root, FaultList& faults) {
     faults.add_at(line_of(root), "must be sections of keys");
     return config;
   }
-  const ListRule<SensorConfig> sensors{kSensorsKey, sensor_keys(), 0,
-                                       kMaxSensors, "sensors",     "sensor"};
-  const ListRule<MeshInterfaceConfig> interfaces{kInterfacesKey, interface_keys(), 0,
-                                                 kMaxInterfaces, "interfaces",     "interface"};
+  const ListRule<SensorConfig> sensors{kSensorsKey, sensor_keys(), kMaxSensors, "sensors",
+                                       "sensor"};
+  const ListRule<MeshInterfaceConfig> interfaces{kInterfacesKey, interface_keys(), kMaxInterfaces,
+                                                 "interfaces", "interface"};
   bool sensors_given = false;
   const auto read_lists = [&](const std::string& key, const YAML::Node& node) {
     if (key == kSensorsKey) {
       sensors_given = true;
-      config.sensors = read_list(sensors, node, faults);
+      if (auto list = read_list(sensors, node, faults)) config.sensors = *std::move(list);
     } else if (key == kInterfacesKey) {
-      config.mesh.interfaces = read_list(interfaces, node, faults);
+      if (auto list = read_list(interfaces, node, faults)) {
+        config.mesh.interfaces = *std::move(list);
+      }
     } else {
       return false;
     }

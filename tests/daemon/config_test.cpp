@@ -134,7 +134,7 @@ TEST_CASE("a fault names file, line, key, value and what is allowed") {
 
 TEST_CASE("sensors are checked one by one") {
   check_fault("sensors: []\n", "robot.yaml:1: sensors: a robot needs at least one");
-  check_fault("sensors: 5\n", "robot.yaml:1: sensors: must be a list of 0 to 16 sensors");
+  check_fault("sensors: 5\n", "robot.yaml:1: sensors: must be a list of at most 16 sensors");
   check_fault("sensors:\n  - name: a\n  - name: a\n",
               "robot.yaml:3: sensors[1].name: 'a' is taken by a sensor above");
   check_fault("sensors:\n  - min_range_m: 1\n",
@@ -171,7 +171,7 @@ TEST_CASE("the mesh is off until an interface is named, and interfaces are check
 
   const std::string one = "mesh:\n  interfaces:\n    - name: wlan0\n";
   check_fault("mesh: {interfaces: wlan0}\n",
-              "robot.yaml:1: mesh.interfaces: must be a list of 0 to 8 interfaces");
+              "robot.yaml:1: mesh.interfaces: must be a list of at most 8 interfaces");
   check_fault("mesh:\n  interfaces:\n    - ipv6: true\n",
               "robot.yaml:3: mesh.interfaces[0].name: missing: every interface needs one");
   check_fault(one + "    - name: wlan0\n",
