@@ -77,12 +77,16 @@ BlockOrdinal ConflictWatch::look_at(const FleetMap& map, const Replica& layer) {
   const OwnLayer& own = map.own_layers().rbegin()->second;
   OwnCodes codes(own.layer(), own.T_fleet_layer().inverse() * *T_fleet_layer,
                  layer.resolution().metres());
-  std::size_t left = kBlocksPerTick;
+  std::size_t left = kRegionsPerTick;
+  std::optional<RegionOrdinal> region;
   BlockOrdinal next = kOrdinalEnd;
   layer.for_each_changed({next_, kOrdinalEnd}, {}, [&](BlockOrdinal block, const LayerBlock& told) {
-    if (left-- == 0) {
-      next = block;
-      return false;
+    if (region != region_of(block)) {
+      if (left-- == 0) {
+        next = block;
+        return false;
+      }
+      region = region_of(block);
     }
     const VoxelKey low = first_voxel_of(block_key_of(block));
     told.codes.for_each_known([&](std::uint32_t place, VoxelCode code) {

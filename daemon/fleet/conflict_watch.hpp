@@ -13,14 +13,14 @@ namespace warren {
 
 // How far the layers of others contradict what this node measured: of their obstacles where the own
 // newest layer knows something, the share that it knows as free. Aligned maps have about 0.02; 0.2
-// m aside 0.14, half a metre 0.40. Looks at a few blocks of one layer at a time, so a score is that
-// of the last whole round, some seconds to minutes old. Only reads.
+// m aside 0.14, half a metre 0.40. Looks at a few regions of one layer at a time, so a score is
+// that of the last whole round, some seconds to minutes old. Only reads.
 class ConflictWatch {
  public:
-  static constexpr std::size_t kBlocksPerTick = 2048;
-  static constexpr std::uint64_t kVoxelsMin = 500;  // fewer prove nothing
-  static constexpr double kAlign = 0.10;            // from here on the layer lies askew
-  static constexpr double kQuarantine = 0.25;       // from here on it misleads
+  static constexpr std::size_t kRegionsPerTick = 4;  // one at rest takes some milliseconds
+  static constexpr std::uint64_t kVoxelsMin = 500;   // fewer prove nothing
+  static constexpr double kAlign = 0.10;             // from here on the layer lies askew
+  static constexpr double kQuarantine = 0.25;        // from here on it misleads
 
   // The layer whose round ended with this call, if one did and there is a score.
   std::optional<LayerId> advance(const FleetMap& map);
