@@ -6,41 +6,16 @@
 namespace warren {
 namespace {
 
-// Of the codes of one layer, by places in the frame of another.
-class OwnCodes {
- public:
-  OwnCodes(const Replica& own, const Eigen::Isometry3d& T_own_other, double other_m)
-      : own_(own),
-        own_lattice_(own.resolution().metres()),
-        other_lattice_(other_m),
-        T_own_other_(T_own_other) {}
-
-  VoxelState state(const VoxelKey& key_other) {
-    const Eigen::Vector3d centre(other_lattice_.centre_m(key_other.x),
-                                 other_lattice_.centre_m(key_other.y),
-                                 other_lattice_.centre_m(key_other.z));
-    const Eigen::Vector3d there = T_own_other_ * centre;
-    const auto key = own_lattice_.key_of(there.x(), there.y(), there.z());
-    if (!key) return VoxelState::kUnknown;
-    const BlockOrdinal block = ordinal_of(block_of(*key));
-    return own_.codes_in_place(block).at(morton9(key->x, key->y, key->z)).state();
-  }
-
- private:
-  const Replica& own_;
-  Lattice own_lattice_;
-  Lattice other_lattice_;
-  Eigen::Isometry3d T_own_other_;
-};
-
-VoxelKey voxel_at(const VoxelKey& low, std::uint32_t place) {
+Eigen::Vector3d centre_of(const VoxelKey& block_low, std::uint32_t place, double resolution_m) {
   const VoxelKey in_block = place_of_morton9(place);
-  return {low.x + in_block.x, low.y + in_block.y, low.z + in_block.z};
+  return Eigen::Vector3d(block_low.x + in_block.x + 0.5, block_low.y + in_block.y + 0.5,
+                         block_low.z + in_block.z + 0.5) *
+         resolution_m;
 }
 
 }  // namespace
 
-std::optional<LayerId> ConflictWatch::advance(const FleetMap& map) {
+std::optional<LayerId> ConflictWatch::advance(FleetMap& map) {
   if (map.own_layers().empty()) return std::nullopt;
   const Replica* layer = at_ ? map.loaded().replica(*at_) : nullptr;
   if (layer == nullptr) {
@@ -70,13 +45,12 @@ std::optional<double> ConflictWatch::score(const LayerId& layer) const {
   return found == scores_.end() ? std::nullopt : std::optional(found->second);
 }
 
-BlockOrdinal ConflictWatch::look_at(const FleetMap& map, const Replica& layer) {
+BlockOrdinal ConflictWatch::look_at(FleetMap& map, const Replica& layer) {
   const auto lies = map.loaded().find(layer.id());
   const auto T_fleet_layer = lies ? lies->T_fleet_layer.checked() : std::nullopt;
   if (!T_fleet_layer || lies->unplaced) return kOrdinalEnd;
-  const OwnLayer& own = map.own_layers().rbegin()->second;
-  OwnCodes codes(own.layer(), own.T_fleet_layer().inverse() * *T_fleet_layer,
-                 layer.resolution().metres());
+  const Eigen::Isometry3d T_merge_layer = map.T_merge_fleet() * *T_fleet_layer;
+  const double resolution_m = layer.resolution().metres();
   std::size_t left = kRegionsPerTick;
   std::optional<RegionOrdinal> region;
   BlockOrdinal next = kOrdinalEnd;
@@ -91,7 +65,7 @@ BlockOrdinal ConflictWatch::look_at(const FleetMap& map, const Replica& layer) {
     const VoxelKey low = first_voxel_of(block_key_of(block));
     told.codes.for_each_known([&](std::uint32_t place, VoxelCode code) {
       if (code.state() != VoxelState::kOccupied) return;
-      const VoxelState known = codes.state(voxel_at(low, place));
+      const VoxelState known = map.own_state(T_merge_layer * centre_of(low, place, resolution_m));
       round_.known += known == VoxelState::kUnknown ? 0 : 1;
       round_.free += known == VoxelState::kFree ? 1 : 0;
     });

@@ -73,6 +73,14 @@ Eigen::Isometry3d FleetMap::T_merge_fleet() const {
   return T_merge_map * own_.rbegin()->second.T_fleet_map().inverse();
 }
 
+VoxelState FleetMap::own_state(const Eigen::Vector3d& position_merge) {
+  const MergedVoxel voxel = merge_.voxel(Point3f{static_cast<float>(position_merge.x()),
+                                                 static_cast<float>(position_merge.y()),
+                                                 static_cast<float>(position_merge.z())});
+  const bool own = voxel.source != kNoSource && merge_.source(voxel.source).self;
+  return own ? voxel.code.state() : VoxelState::kUnknown;
+}
+
 Eigen::Isometry3d FleetMap::T_merge_own(const OwnLayer& layer) const {
   const Eigen::Isometry3d& T_fleet_map = own_.rbegin()->second.T_fleet_map();
   // In one and the same map frame this is a shift to the last bit, so that a correction of where

@@ -113,6 +113,10 @@ class FleetMap {
   // Takes over where the layers of others lie now.
   void place_others() { loaded_.place(T_merge_fleet()); }
 
+  Eigen::Isometry3d T_merge_fleet() const;
+  // What this node measured itself at a place in the merge-map's frame. Fills its cache.
+  VoxelState own_state(const Eigen::Vector3d& position_merge);
+
   const std::map<std::uint32_t, OwnLayer>& own_layers() const { return own_; }
   // Where this node's sensor was at the scan taken last.
   std::optional<Eigen::Vector3d> position_fleet() const;
@@ -136,7 +140,6 @@ class FleetMap {
   OwnLayer& own_layer(const LayerChanges& changes);
   LayerMemory memory() const;
   const Replica* current() const;
-  Eigen::Isometry3d T_merge_fleet() const;
   Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;
   // Layers that lie elsewhere in the merge-map's frame than before are moved there; those beyond
   // its reach are left out of it, and counted.

@@ -18,7 +18,7 @@ std::vector<CodedBlock> floor_of(std::int32_t blocks) {
 }
 
 // Of one whole round.
-std::optional<double> score_of(ConflictWatch& watch, const FleetMap& fleet, const LayerId& layer) {
+std::optional<double> score_of(ConflictWatch& watch, FleetMap& fleet, const LayerId& layer) {
   for (int i = 0; i < 100; ++i) {
     if (watch.advance(fleet) == layer) return watch.score(layer);
   }
