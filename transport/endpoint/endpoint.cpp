@@ -135,7 +135,14 @@ std::vector<Member> Endpoint::members() const {
   return members;
 }
 
-const EndpointCounts& Endpoint::counts() const { return state_->node.counts; }
+EndpointCounts Endpoint::counts() const {
+  EndpointCounts counts = state_->node.counts;
+  for (const auto& [id, peer] : state_->node.members) {
+    counts.outbox += peer->outbox.counts();
+    counts.inbox += peer->inbox.counts();
+  }
+  return counts;
+}
 
 std::size_t Endpoint::memory_bytes() const {
   std::size_t bytes = sizeof(State) + state_->discovery.memory_bytes();

@@ -149,7 +149,8 @@ class Endpoint {
   void wake_group(InterfaceIndex interface);
 
   std::vector<Member> members() const;
-  const EndpointCounts& counts() const;
+  // Of this life, over all members.
+  EndpointCounts counts() const;
   std::size_t memory_bytes() const;
 
   // What is unfinished, as bytes: parcels not handed over, streams, which were finished. Given to a
