@@ -42,6 +42,9 @@ Endpoint::Endpoint(const EndpointConfig& config, std::shared_ptr<const KeySchedu
   assert(!config.interfaces.empty() && Node::can_be_member(config.self));
 }
 
+  assert(std::all_of(
+      config.interfaces.begin(), config.interfaces.end(),
+      [](const InterfaceConfig& c) { return c.mtu_bytes >= InterfaceConfig::kMtuLeast; }));
 Endpoint::~Endpoint() = default;
 
 void Endpoint::on_datagram(MeshTime now, const MeshPath& from,

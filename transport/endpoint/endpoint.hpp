@@ -22,6 +22,9 @@
 namespace warren::mesh {
 
 struct InterfaceConfig {
+  // Precondition: no MTU is smaller. Answers about parcels would not fit.
+  static constexpr std::size_t kMtuLeast = 300;
+
   std::size_t mtu_bytes = 1428;         // of an IP packet, headers included
   std::size_t ip_header_bytes = 28;     // IP and UDP: 28, or 48 with IPv6
   std::optional<double> ceiling_bit_s;  // of all that this node sends there, IP bytes
@@ -109,6 +112,9 @@ class MapSource {
   virtual void on_acknowledged(MemberId, std::uint64_t ticket) = 0;
   virtual void on_lost(MemberId, std::uint64_t ticket) = 0;
 };
+  // It is asked for no packet with a lower limit than this: a path that carries less carries none.
+  // Constant.
+  virtual std::size_t bytes_min() const { return 1; }
 
 enum class SendError { kTooLarge, kFull, kUnknownMember };
 

@@ -177,7 +177,8 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
   });
   const std::size_t limit =
       config.mtu_bytes - config.ip_header_bytes - kEnvelopeBytes - MapFrame::kOverhead;
-  auto packet = heard ? node_.source.next_for_group(interface, limit) : std::nullopt;
+  const bool fits = limit >= node_.source.bytes_min();
+  auto packet = heard && fits ? node_.source.next_for_group(interface, limit) : std::nullopt;
   if (!packet) {
     group_alone_[interface] = !heard;
     group_awake_[interface] = false;
