@@ -20,7 +20,7 @@ enum class Unused : std::uint8_t {
   kRetiredBoot,        // of a life that has ended
   kNotFresh,           // authentic, but perhaps recorded: what it says has to be proved
   kUnknownSender,      // authentic, but does not say who sends
-  kMemberTableFull,    // a new member beyond members_max
+  kMemberTableFull,    // a new member beyond members_max, and nobody to be forgotten
   kAnswerRateLimited,  // beacons of unconfirmed boots that got no answer
   kCount
 };

@@ -53,12 +53,17 @@ struct Peer {
   static constexpr Duration kReplyLeast = std::chrono::milliseconds(20);
 
   Peer(MemberId member, const DeliveryConfig& delivery, std::uint64_t fresh_stream,
-       const TelemetryBoard& board, ParcelBudget& sent, ParcelBudget& received,
-       std::size_t interfaces)
+       std::uint32_t first_urgent, const TelemetryBoard& board, ParcelBudget& sent,
+       ParcelBudget& received, std::size_t interfaces)
       : id(member),
-        outbox(delivery, fresh_stream, board, sent),
+        outbox(delivery, fresh_stream, board, sent, first_urgent),
         inbox(delivery, received),
         paths(interfaces) {}
+
+  // Something of it was promised, or the layer above has not finished it.
+  bool holds_parcels() const {
+    return outbox.unfinished_bytes() > 0 || inbox.unfinished_parcels() > 0;
+  }
 
   MemberId id;
   Outbox outbox;

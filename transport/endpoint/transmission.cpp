@@ -54,6 +54,12 @@ void Transmission::set_turn(Peer& peer, std::optional<InterfaceIndex> interface)
   }
 }
 
+void Transmission::forget(Peer& peer) {
+  set_deadline(peer, kNever);
+  set_prompt(peer, false);
+  set_turn(peer, std::nullopt);
+}
+
 void Transmission::wake_group(InterfaceIndex interface) {
   if (!node_.config.interfaces[interface].group_broadcast || group_awake_[interface]) return;
   group_awake_[interface] = true;

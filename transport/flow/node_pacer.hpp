@@ -25,6 +25,8 @@ class NodePacer {
   // Who wants to send a paced packet now. A peer that cannot (nothing to send, no room in flight)
   // should be unset, or it stalls nobody but itself.
   void want(Peer peer, bool wants);
+  // The peer is no more; what it owes is forgotten.
+  void forget(Peer peer) { shares_.erase(peer); }
 
   // No packet before this; the past means at once.
   MeshTime ready_at() const { return ready_at_; }
