@@ -87,8 +87,8 @@ TEST_CASE("a table full of members of an earlier life makes room too") {
   Simulation simulation(fleet());
   for (const std::size_t i : {0U, 1U, 2U}) simulation.start(i);
   run(simulation, seconds(5));
-  simulation.send_parcel(0, 1, ParcelClass::kMessage, 10);
-  simulation.send_parcel(0, 2, ParcelClass::kMessage, 10);
+  simulation.send_parcel(0, 1, ParcelClass::kMessage, 100);
+  simulation.send_parcel(0, 2, ParcelClass::kMessage, 100);
   run(simulation, seconds(2));
   REQUIRE(simulation.ledger().outstanding() == 0);
   for (const std::size_t i : {0U, 1U, 2U}) simulation.stop(i);
