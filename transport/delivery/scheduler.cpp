@@ -36,7 +36,7 @@ MeshTime open_at(MeshTime now, const TokenBucket& bucket, double bytes_per_s) {
 
 void FilledPacket::add(OutgoingFrame&& sent, SendClass send_class) {
   add(std::move(sent.frame), send_class);
-  tickets.push_back(std::move(sent.ticket));
+  tickets.push_back(sent.ticket);
 }
 
 void FilledPacket::add(Frame&& frame, SendClass send_class) {

@@ -21,8 +21,8 @@ namespace warren::mesh {
 
 // With one boot of a peer, from its first pair packet on; it outlives any silence.
 struct Session {
-  Session(SessionKeys session_keys, Flow session_flow)
-      : keys(std::move(session_keys)), flow(std::move(session_flow)) {}
+  Session(const SessionKeys& session_keys, Flow session_flow)
+      : keys(session_keys), flow(std::move(session_flow)) {}
 
   SessionKeys keys;
   Flow flow;
