@@ -90,7 +90,8 @@ struct Peer {
   // Packets may go to it whenever there is something.
   bool in_reach(MeshTime now) const { return session && liveness.up() && !is_silent(now); }
 
-  static constexpr Duration kSilence = std::chrono::milliseconds(1500);
+  // Acknowledgements lost in a row can last seconds; the flow sends less and less meanwhile.
+  static constexpr Duration kSilence = std::chrono::seconds(4);
   static constexpr int kSilenceRtts = 4;
 };
 

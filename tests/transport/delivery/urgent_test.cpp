@@ -38,12 +38,12 @@ TEST_CASE_FIXTURE(UrgentFixture,
   for (MeshTime now = kStart; now < kStart + 3s; now += 1ms) {
     if (outbox.next(now, 1000, kRtt)) sent_after.push_back(now - kStart);
   }
-  REQUIRE(sent_after.size() == 22);  // at 0, 20, 40, 140, ..., 1940 ms
+  REQUIRE(sent_after.size() == 22);  // at 0, 15, 30, 130, ..., 1930 ms
   CHECK(sent_after[0] == 0ms);
-  CHECK(sent_after[1] == 20ms);
-  CHECK(sent_after[2] == 40ms);
-  CHECK(sent_after[3] == 140ms);
-  CHECK(sent_after.back() == 1940ms);
+  CHECK(sent_after[1] == 15ms);
+  CHECK(sent_after[2] == 30ms);
+  CHECK(sent_after[3] == 130ms);
+  CHECK(sent_after.back() == 1930ms);
   CHECK(counts.urgent_expired == 1);
   CHECK(counts.urgent_copies == 21);
   CHECK(outbox.next_due() == kNever);
