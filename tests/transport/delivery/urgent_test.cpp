@@ -57,7 +57,7 @@ TEST_CASE_FIXTURE(UrgentFixture, "an acknowledgement stops the copies of that me
   CHECK_FALSE(outbox.next(kStart, 1000, kRtt));
   outbox.on_acked(std::get<UrgentTicket>(first->ticket));
   CHECK(outbox.unacknowledged() == 1);
-  CHECK(outbox.next_due() == kStart + 20ms);
+  CHECK(outbox.next_due() == kStart + 15ms);
   CHECK(number_of(outbox.next(kStart + 20ms, 1000, kRtt)) != number_of(first));
   CHECK_FALSE(outbox.next(kStart + 20ms, 1000, kRtt));
 }
