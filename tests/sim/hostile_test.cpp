@@ -167,10 +167,10 @@ TEST_CASE("the group is served again after a short silence of all who hear it") 
   simulation.send_parcel(0, 1, ParcelClass::kMessage, 1'000'000);  // an answer is expected
   simulation.run_until(MeshTime(milliseconds(5500)));
   simulation.network().set_silent(simulation.now(), true);
-  simulation.run_until(MeshTime(milliseconds(8000)));
+  simulation.run_until(MeshTime(milliseconds(10'000)));
   REQUIRE(simulation.node(0).endpoint->members()[0].up);
   simulation.add_group(0, 20'000);
-  simulation.run_until(MeshTime(milliseconds(8300)));
+  simulation.run_until(MeshTime(milliseconds(10'300)));
   simulation.network().set_silent(simulation.now(), false);
   simulation.run_until(MeshTime(seconds(30)));
   CHECK(simulation.ledger().map_packets_arrived(2, MapClass::kFresh) >= 14);
