@@ -14,12 +14,6 @@ using std::chrono::milliseconds;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-Simulation::Config two_nodes() {
-  Simulation::Config config;
-  config.networks = {network_of({.rtt = milliseconds(20)})};
-  return config;
-}
-
 PresharedKeys keys() { return PresharedKeys(Key{7}); }
 
 std::vector<std::uint8_t> sealed_frame(BootId from, BootId to, std::uint64_t number,

@@ -13,9 +13,8 @@ using std::chrono::seconds;
 
 // Node 0 knows two at most.
 Simulation::Config fleet() {
-  Simulation::Config config;
+  Simulation::Config config = two_nodes();
   config.nodes = 5;
-  config.networks = {network_of({.rtt = milliseconds(20)})};
   config.members_max = 2;
   return config;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/flow/node_pacer.hpp"
+
 namespace warren::mesh {
 namespace {
 
@@ -17,9 +19,8 @@ constexpr Duration kProbeMin = milliseconds{20};
 constexpr Duration kProbeMax = milliseconds{200};
 constexpr double kRepeatShare = 0.04;  // of the bytes sent for the first time
 constexpr double kRepeatBytesMax = 6'000.0;
-constexpr double kRepeatSecondsMax = 0.01;            // of the rate, on fast links
-constexpr Duration kOwnAheadMax = milliseconds{250};  // as the NodePacer's
-constexpr std::size_t kAtOnceBytes = 64'000;          // beyond what may be in flight
+constexpr double kRepeatSecondsMax = 0.01;    // of the rate, on fast links
+constexpr std::size_t kAtOnceBytes = 64'000;  // beyond what may be in flight
 
 }  // namespace
 
@@ -41,7 +42,7 @@ void Flow::on_sent(MeshTime now, Sent sent) {
   // What a packet waits beyond the airtime of our own before it went to other peers.
   const Duration spacing = now - last_sent_;
   const Duration own = sent.backlogged ? std::min(own_ahead_, spacing) : spacing;
-  own_ahead_ = std::clamp(own_ahead_ - spacing, Duration{0}, kOwnAheadMax) +
+  own_ahead_ = std::clamp(own_ahead_ - spacing, Duration{0}, NodePacer::kAheadMax) +
                Duration{std::llround(bytes * 1e6 / rate_.pace())};
   last_sent_ = now;
   sent_.on_sent(sent.number, {.sent = now,

@@ -18,6 +18,8 @@ class NodePacer {
   using Peer = std::uint32_t;  // the owner's number for it
   // The name of packets that go to all: no member may have it.
   static constexpr Peer kGroup = UINT32_MAX;
+  // What did not wait for its turn delays the others no longer than this.
+  static constexpr Duration kAheadMax = std::chrono::milliseconds{250};
 
   // The ceiling is for all that the node sends there.
   explicit NodePacer(std::optional<double> ceiling_bit_s) : ceiling_(ceiling_bit_s) {}
