@@ -142,7 +142,7 @@ class NodeWalk {
   // a pair is the lower bit; children that have children follow after all eight.
   bool walk_states(std::uint64_t morton, int level) {
     const auto children = in_.number<std::uint16_t>();
-    if (!in_.complete() || level == 0) return fail("a tree of more than 16 levels, or cut short");
+    if (!in_.complete() || level <= 0) return fail("a tree of more than 16 levels, or cut short");
     for (std::uint32_t child = 0; child < 8; ++child) {
       const std::uint32_t state = children >> 2 * child & 3;
       const std::uint64_t child_morton = morton | std::uint64_t{child} << 3 * (level - 1);
@@ -159,7 +159,7 @@ class NodeWalk {
     const auto children = in_.number<std::uint8_t>();
     if (!in_.complete()) return fail("the tree is cut short");
     if (children == 0) return add(morton, level, log_odds >= 0.0F);
-    if (level == 0) return fail("a tree of more than 16 levels");
+    if (level <= 0) return fail("a tree of more than 16 levels");
     for (std::uint32_t child = 0; child < 8; ++child) {
       if ((children >> child & 1) == 0) continue;
       if (!walk_log_odds(morton | std::uint64_t{child} << 3 * (level - 1), level - 1)) return false;

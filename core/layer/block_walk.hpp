@@ -231,6 +231,7 @@ struct NeighbourSummary {
 
 template <typename Coder>
 void code_attributes(Coder& coder, const PastNeighbours& past, BlockCodes& codes) {
+  if (!any(codes.occupied)) return;
   PaddedGrid<Attributes, 8> told{kNotTold};
   for (std::size_t axis = 0; axis < past.size(); ++axis) {
     if (past[axis] != nullptr) told.fill_past_face(axis, past[axis], attributes_of);

@@ -26,10 +26,9 @@ class PaddedGrid {
   // that touch it; Value{} if there is no such block.
   template <typename ValueOf>
   void fill_past_face(std::size_t axis, const BlockCodes* neighbour, ValueOf&& value_of) {
-    for (std::uint32_t part = 0; part < kParts; ++part) {
-      if ((part & kAxisBits[axis]) != kAxisBits[axis]) continue;
-      const std::uint32_t first = part & ~kAxisBits[axis];
-      Value* const inside = &values_[kPlaces[first]];
+    const std::uint32_t last = kAxisBits[axis];
+    for (std::uint32_t part = last; part < kParts; part = (part + 1) | last) {
+      Value* const inside = &values_[kPlaces[part & ~last]];
       *(inside - kSteps[axis]) = neighbour != nullptr ? value_of(*neighbour, part) : Value{};
     }
   }

@@ -28,7 +28,7 @@ void check_restored(const SavedPeer& peer) {
   assert(outbox.save().parcels == peer.outgoing.parcels);
   assert(inbox.save() == peer.incoming);
   Scheduler scheduler;
-  const SendState state{MeshTime{std::chrono::seconds(1)}, 1e6, Duration{100'000}, 60};
+  const SendState state{MeshTime{std::chrono::seconds(1)}, 1e6, Duration{100'000}, 60, 1200};
   const auto no_map = [](MapClass, std::size_t) { return std::optional<PulledMap>{}; };
   for (int i = 0; i < 100; ++i) {
     FilledPacket packet;

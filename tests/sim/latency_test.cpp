@@ -23,6 +23,7 @@ struct Latencies {
   double urgent_p99 = 0.0;
   std::size_t telemetry = 0;
   std::size_t urgent = 0;
+  double rate_bit_s = 0.0;  // that the sender believes in
 };
 
 // With a backlog without end from node 0 to node 1.
@@ -51,13 +52,15 @@ Latencies under_load(double loss, std::uint64_t seed) {
   const auto& node = simulation.node(1);
   return {quantile(seconds_of(node.telemetry_latency), 0.99),
           quantile(seconds_of(node.urgent_latency), 0.99), node.telemetry_latency.size(),
-          node.urgent_latency.size()};
+          node.urgent_latency.size(),
+          simulation.node(0).endpoint->members().front().link.rate_bit_s};
 }
 
 TEST_CASE("telemetry and urgent messages under a saturating backlog") {
   std::vector<double> telemetry;
   std::vector<double> urgent;
   std::vector<double> urgent_lossy;
+  std::vector<double> rate;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Latencies clean = under_load(0.0, seed);
     const Latencies lossy = under_load(0.2, seed);
@@ -67,16 +70,15 @@ TEST_CASE("telemetry and urgent messages under a saturating backlog") {
     telemetry.push_back(clean.telemetry_p99);
     urgent.push_back(clean.urgent_p99);
     urgent_lossy.push_back(lossy.urgent_p99);
+    rate.push_back(clean.rate_bit_s);
   }
   MESSAGE("p99: telemetry ", quantile(telemetry, 0.5), " s, urgent ", quantile(urgent, 0.5),
           " s, urgent at loss 20 % ", quantile(urgent_lossy, 0.5), " s; target ", kTarget, " s");
-  // The target is missed; what is reached must not be lost again.
-  WARN(quantile(telemetry, 0.5) <= kTarget);
-  CHECK(quantile(telemetry, 0.5) <= 1.25 * kTarget);
-  WARN(quantile(urgent, 0.5) <= kTarget);
-  CHECK(quantile(urgent, 0.5) <= 1.15 * kTarget);
-  WARN(quantile(urgent_lossy, 0.5) <= kTarget);
-  CHECK(quantile(urgent_lossy, 0.5) <= 1.4 * kTarget);
+  CHECK(quantile(telemetry, 0.5) <= kTarget);
+  CHECK(quantile(urgent, 0.5) <= kTarget);
+  CHECK(quantile(urgent_lossy, 0.5) <= kTarget);
+  // Small packets between the paced ones do not make the link look faster than it is.
+  CHECK(quantile(rate, 0.5) <= 1.04e6);
 }
 
 TEST_CASE("no class starves another") {

@@ -18,6 +18,12 @@ LinkModelConfig network_of(const RadioLink& radio) {
   return network;
 }
 
+Simulation::Config two_nodes() {
+  Simulation::Config config;
+  config.networks = {network_of({.rtt = std::chrono::milliseconds(20)})};
+  return config;
+}
+
 Transferred transfer(const RadioLink& radio, std::size_t bytes, std::uint64_t seed) {
   constexpr std::size_t kParcelBytes = 200'000;
   Simulation::Config config;

@@ -24,6 +24,8 @@ struct RadioLink {
   Duration queue = std::chrono::milliseconds(1000);
 };
 LinkModelConfig network_of(const RadioLink& radio);
+// Two nodes, 1 Mbit/s, a round trip of 20 ms, no loss.
+Simulation::Config two_nodes();
 
 struct Transferred {
   double efficiency = 0.0;  // application bits per second, of the rate times what is not lost

@@ -8,6 +8,7 @@ namespace warren::mesh::sim {
 std::optional<MapSource::Packet> SimSource::next_for(MemberId to, MapClass wanted,
                                                      std::size_t limit) {
   if (starved == wanted) return std::nullopt;
+  if (limit < packet_bytes_min) ledger_.fail(now_, "asked for too small a map packet");
   auto& left = wanted_[to][static_cast<std::size_t>(wanted)];
   if (left == 0) return std::nullopt;
   const std::size_t bytes =
@@ -21,6 +22,7 @@ std::optional<MapSource::Packet> SimSource::next_for(MemberId to, MapClass wante
 
 std::optional<MapSource::Packet> SimSource::next_for_group(InterfaceIndex, std::size_t limit) {
   if (group_bytes_ == 0) return std::nullopt;
+  if (limit < packet_bytes_min) ledger_.fail(now_, "asked for too small a group packet");
   const std::size_t bytes =
       std::max<std::size_t>(kStampBytes, std::min<std::uint64_t>(group_bytes_, limit));
   group_bytes_ -= std::min<std::uint64_t>(group_bytes_, bytes);

@@ -23,6 +23,7 @@ class SimSource : public MapSource {
   }
   void add_group(std::uint64_t bytes) { group_bytes_ += bytes; }
   void set_now(MeshTime now) { now_ = now; }
+  std::size_t bytes_min() const override { return packet_bytes_min; }
   // The endpoint is gone: what it had is lost.
   void on_restart();
 
@@ -39,6 +40,7 @@ class SimSource : public MapSource {
   std::uint64_t open_bytes() const;
   // A planted fault: never says that it has something of this class.
   std::optional<MapClass> starved;
+  std::size_t packet_bytes_min = kStampBytes;  // set before the node starts
 
  private:
   struct UnderWay {

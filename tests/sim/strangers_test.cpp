@@ -12,12 +12,6 @@ using std::chrono::milliseconds;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-Simulation::Config two_nodes() {
-  Simulation::Config config;
-  config.networks = {network_of({.rtt = milliseconds(20)})};
-  return config;
-}
-
 std::uint64_t unused(Simulation& simulation, std::size_t node, Unused reason) {
   return simulation.node(node).endpoint->counts()[reason];
 }

@@ -16,8 +16,6 @@ struct Target {
   std::size_t bytes;
   double efficiency;
   double oversend = 0.0;  // 0: not asked for
-  // Of a target that is missed: what is reached, and must not be lost again.
-  double reached = 0.0;
 };
 
 void check(const Target& target) {
@@ -35,8 +33,7 @@ void check(const Target& target) {
   const double oversend = median(&Transferred::oversend);
   MESSAGE(target.name, ": ", 100.0 * efficiency, " % (target ", 100.0 * target.efficiency,
           "), sent ", oversend, ", queue ", median(&Transferred::queue_s), " s");
-  if (target.reached > 0.0) WARN(efficiency >= target.efficiency);
-  CHECK(efficiency >= (target.reached > 0.0 ? target.reached : target.efficiency));
+  CHECK(efficiency >= target.efficiency);
   if (target.oversend > 0.0) CHECK(oversend <= target.oversend);
 }
 
@@ -56,21 +53,16 @@ TEST_CASE("5 MB at 1 Mbit/s, hard cases") {
   check({"RTT 200, loss 40", {.rtt = milliseconds(200), .loss = 0.40}, kBytes, 0.86});
   check({"RTT 600, loss 0", {.rtt = milliseconds(600)}, kBytes, 0.80});
   check({"RTT 600, loss 20", {.rtt = milliseconds(600), .loss = 0.20}, kBytes, 0.80});
-  check({.name = "bursts 20 %",
-         .radio = {.rtt = milliseconds(50), .burst_loss = 0.20},
-         .bytes = kBytes,
-         .efficiency = 0.80,
-         .reached = 0.68});
+  check({"bursts 20 %, RTT 50", {.rtt = milliseconds(50), .burst_loss = 0.20}, kBytes, 0.80, 1.1});
+  check(
+      {"bursts 20 %, RTT 200", {.rtt = milliseconds(200), .burst_loss = 0.20}, kBytes, 0.80, 1.1});
 }
 
 TEST_CASE("200 kB at 50 kbit/s") {
   constexpr std::size_t kBytes = 200'000;
-  check({.name = "loss 5",
-         .radio = {.bit_s = 50e3, .loss = 0.05},
-         .bytes = kBytes,
-         .efficiency = 0.82,
-         .reached = 0.78});
-  check({"loss 20", {.bit_s = 50e3, .loss = 0.20}, kBytes, 0.76});
+  // Of 575 bytes 77 are around the payload, beacons take 900 bit/s: fewer than 1.17 there are not.
+  check({"loss 5", {.bit_s = 50e3, .loss = 0.05}, kBytes, 0.82, 1.21});
+  check({"loss 20", {.bit_s = 50e3, .loss = 0.20}, kBytes, 0.76, 1.21});
 }
 
 TEST_CASE("10 and 100 Mbit/s") {

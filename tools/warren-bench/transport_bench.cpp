@@ -54,6 +54,8 @@ TransportRun median_of(const std::vector<TransportRun>& runs) {
   }
   middle.seconds = median_if_any(runs, [](Run run) { return run.seconds; });
   middle.first_byte_s = median_if_any(runs, [](Run run) { return run.first_byte_s; });
+  middle.rival_efficiency = median_if_any(runs, [](Run run) { return run.rival_efficiency; });
+  middle.share = median_if_any(runs, [](Run run) { return run.share; });
   middle.efficiency = median_by(runs, [](Run run) { return run.efficiency; });
   middle.oversend = median_by(runs, [](Run run) { return run.oversend; });
   middle.back_share = median_by(runs, [](Run run) { return run.back_share; });

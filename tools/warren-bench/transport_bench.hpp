@@ -23,6 +23,7 @@ struct TransportOptions {
   double queue_ms = 200.0;              // of the link, by bytes at its rate; at least ten packets
   std::optional<double> limit_s;        // see time_limit_s()
   std::vector<std::string> peers = transport_kinds();
+  std::optional<std::string> against;  // another flow on the link, endless
   int runs = 1;
   int jobs = 1;  // runs at a time, each on a link of its own
   std::uint64_t seed = 1;
@@ -39,8 +40,13 @@ struct TransportRun {
   std::optional<double>
       seconds;              // from the sender's first call to the last byte; none: not by then
   double efficiency = 0.0;  // payload bytes arrived / (R (1 - p) x time), blackout left out
-  double oversend = 0.0;    // IP bytes sent / (payload bytes arrived / (1 - p))
-  double back_share = 0.0;  // IP bytes sent the other way / payload bytes arrived
+  // With a rival beside: what it got meanwhile, as efficiency; and the share of all payload bytes
+  // that was this one's.
+  std::optional<double> rival_efficiency;
+  std::optional<double> share;
+  // Of all that is on the link: with a rival they say nothing of this one.
+  double oversend = 0.0;               // IP bytes sent / (payload bytes arrived / (1 - p))
+  double back_share = 0.0;             // IP bytes sent the other way / payload bytes arrived
   std::optional<double> first_byte_s;  // after the blackout's end, or after the start
   double sender_cpu = 0.0;  // of one core, user and system; TCP's is partly the kernel's own
   double receiver_cpu = 0.0;

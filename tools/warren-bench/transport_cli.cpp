@@ -31,6 +31,9 @@ void add_options(CLI::App& app, TransportCommand& command) {
       ->delimiter(',')
       ->check(CLI::IsMember(transport_kinds()))
       ->capture_default_str();
+  app.add_option("--against", options.against,
+                 "shares the link with this one, which begins 2 s earlier and never ends")
+      ->check(CLI::IsMember(rival_kinds()));
   app.add_option("--runs", options.runs, "figures are medians of so many")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -47,6 +50,7 @@ void add_options(CLI::App& app, TransportPeerOptions& options) {
   app.add_flag("--send", options.sends);
   app.add_option("--address", options.address)->required();
   app.add_option("--bytes", options.bytes)->required();
+  app.add_option("--port", options.port);
 }
 
 }  // namespace warren

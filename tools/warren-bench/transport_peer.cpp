@@ -78,6 +78,12 @@ const std::vector<std::string>& transport_kinds() {
   return kinds;
 }
 
+std::vector<std::string> rival_kinds() {
+  std::vector<std::string> kinds = transport_kinds();
+  std::erase(kinds, "ours");  // its ports are the fleet's
+  return kinds;
+}
+
 int run_transport_peer(const TransportPeerOptions& options) {
   for (const auto& [name, transport] : transports()) {
     if (name == options.kind) (options.sends ? transport.send : transport.receive)(options);

@@ -18,6 +18,8 @@ struct TransportPeerOptions {
 };
 
 const std::vector<std::string>& transport_kinds();
+// Those of them that can run beside any other in the same namespaces.
+std::vector<std::string> rival_kinds();
 
 // It prints lines, times in microseconds of the monotonic clock:
 //   ready             the receiver can be sent to

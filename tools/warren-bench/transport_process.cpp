@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warren-bench/transport_process.hpp"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 
@@ -58,7 +59,7 @@ std::optional<std::string> ChildProcess::read_line(std::chrono::steady_clock::ti
     const auto left =
         std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
     pollfd waiting{output_, POLLIN, 0};
-    if (left.count() <= 0 || poll(&waiting, 1, static_cast<int>(left.count())) <= 0) return {};
+    if (poll(&waiting, 1, std::max(0, static_cast<int>(left.count()))) <= 0) return {};
     std::array<char, 65536> bytes;
     const ssize_t got = read(output_, bytes.data(), bytes.size());
     if (got <= 0) {

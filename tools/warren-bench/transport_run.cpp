@@ -22,6 +22,8 @@ using std::chrono::microseconds;
 constexpr auto kStartPatience = std::chrono::seconds(20);
 constexpr double kQueueBytesLeast = 10 * 1500;
 constexpr char kReceiverAddress[] = "10.77.0.2";
+constexpr auto kRivalAhead = std::chrono::seconds(2);
+constexpr std::uint16_t kRivalPort = 5001;
 
 double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 Clock::duration duration(double time_s) {
@@ -73,12 +75,19 @@ std::vector<std::string> link_command(const TransportOptions& options, std::uint
   return words;
 }
 
-std::vector<std::string> peer_command(const TransportOptions& options, const std::string& peer,
-                                      bool sends, const std::string& network_namespace,
-                                      const TransportPrograms& programs) {
+struct PeerCommand {
+  std::string kind;
+  std::size_t bytes = 0;
+  std::uint16_t port = 5000;
+};
+
+std::vector<std::string> words_of(const PeerCommand& peer, bool sends,
+                                  const std::string& network_namespace,
+                                  const TransportPrograms& programs) {
   std::vector<std::string> words{"ip", "netns", "exec", network_namespace, programs.bench};
-  words.insert(words.end(), {"transport-peer", "--kind", peer, "--address", kReceiverAddress,
-                             "--bytes", std::to_string(options.bytes)});
+  words.insert(words.end(),
+               {"transport-peer", "--kind", peer.kind, "--address", kReceiverAddress, "--bytes",
+                std::to_string(peer.bytes), "--port", std::to_string(peer.port)});
   if (sends) words.push_back("--send");
   return words;
 }
@@ -113,9 +122,54 @@ void hear(const std::string& line, Story& story) {
   }
 }
 
+// Another flow on the same link, from some time before until this object goes.
+class Rival {
+ public:
+  Rival(const TransportOptions& options, const std::vector<std::string>& names,
+        const TransportPrograms& programs)
+      : command_{options.against.value_or(""), endless_bytes(options), kRivalPort},
+        receiver_(words_of(command_, false, names[1], programs)) {
+    if (receiver_.read_line(Clock::now() + kStartPatience) != "ready") {
+      story_.problem = "the rival's receiver did not start";
+      return;
+    }
+    sender_.emplace(words_of(command_, true, names[0], programs));
+    const Time ahead = Clock::now() + kRivalAhead;
+    while (Clock::now() < ahead) listen(ahead);
+    if (story_.bytes() == 0) story_.problem = "the rival sent nothing";
+  }
+
+  // Its output must be read, or it stands still.
+  void listen(Time until) {
+    while (const auto line = receiver_.read_line(until)) hear(*line, story_);
+    if (const auto line = sender_->read_line(Clock::now())) hear(*line, story_);
+  }
+  // Payload bytes that arrived between.
+  double bytes(Time from, Time until) const {
+    std::size_t before = 0;
+    std::size_t after = 0;
+    for (const Arrival& arrival : story_.arrivals) {
+      if (arrival.at < from) before = arrival.bytes;
+      if (arrival.at <= until) after = arrival.bytes;
+    }
+    return static_cast<double>(after - before);
+  }
+  const std::string& problem() const { return story_.problem; }
+
+ private:
+  static std::size_t endless_bytes(const TransportOptions& options) {
+    return static_cast<std::size_t>(options.rate_bit_s / 8.0 * (time_limit_s(options) + 60.0));
+  }
+
+  PeerCommand command_;
+  Story story_;
+  ChildProcess receiver_;
+  std::optional<ChildProcess> sender_;
+};
+
 // Follows both sides until the payload is there, the time is over or something breaks.
 void follow(const TransportOptions& options, ChildProcess& link, ChildProcess& sender,
-            ChildProcess& receiver, Story& story) {
+            ChildProcess& receiver, std::optional<Rival>& rival, Story& story) {
   const auto first = sender.read_line(Clock::now() + kStartPatience);
   hear(first.value_or("wrong the sender did not start"), story);
   const Time start = story.start.value_or(Clock::now());
@@ -131,6 +185,7 @@ void follow(const TransportOptions& options, ChildProcess& link, ChildProcess& s
     if (const auto line = receiver.read_line(std::min(next, Clock::now() + duration(1.0)))) {
       hear(*line, story);
     }
+    if (rival) rival->listen(Clock::now());
     // The sender only speaks if something is wrong.
     if (const auto line = sender.read_line(Clock::now())) hear(*line, story);
     if (switches.empty() || Clock::now() < switches.front().first) continue;
@@ -181,6 +236,18 @@ TransportRun judge(const TransportOptions& options, const Story& story,
   return run;
 }
 
+// What both got from the first one's start to its end.
+void judge_shares(const TransportOptions& options, const Story& story, const Rival& rival,
+                  TransportRun& run) {
+  if (!rival.problem().empty()) run.problem = rival.problem();
+  if (!story.start) return;
+  const double took_s = run.seconds.value_or(time_limit_s(options));
+  const double rival_bytes = rival.bytes(*story.start, *story.start + duration(took_s));
+  run.rival_efficiency = rival_bytes / (options.rate_bit_s / 8.0 * (1.0 - options.loss) * took_s);
+  const auto bytes = static_cast<double>(story.bytes());
+  run.share = bytes + rival_bytes > 0.0 ? bytes / (bytes + rival_bytes) : 0.0;
+}
+
 TransportRun broken(const std::string& problem) {
   TransportRun run;
   run.problem = problem;
@@ -194,13 +261,17 @@ TransportRun run_transport(const TransportOptions& options, const std::string& p
   ChildProcess link(link_command(options, seed, programs));
   const auto names = namespaces_of(link);
   if (names.size() != 2) return broken("no link: see the message above");
+  std::optional<Rival> rival;
+  if (options.against) rival.emplace(options, names, programs);
+  if (rival && !rival->problem().empty()) return broken(rival->problem());
+  const PeerCommand command{peer, options.bytes};
   Story story;
   {
-    ChildProcess receiver(peer_command(options, peer, false, names[1], programs));
+    ChildProcess receiver(words_of(command, false, names[1], programs));
     const auto ready = receiver.read_line(Clock::now() + kStartPatience);
     if (ready != "ready") return broken("the receiver did not start: " + ready.value_or(""));
-    ChildProcess sender(peer_command(options, peer, true, names[0], programs));
-    follow(options, link, sender, receiver, story);
+    ChildProcess sender(words_of(command, true, names[0], programs));
+    follow(options, link, sender, receiver, rival, story);
     link.write_line("stats");
     story.sender_cpu = sender.kill();
     story.receiver_cpu = receiver.kill();
@@ -211,7 +282,9 @@ TransportRun run_transport(const TransportOptions& options, const std::string& p
   }
   link.wait();
   if (!stats) return broken("the link ended");
-  return judge(options, story, nlohmann::json::parse(*stats));
+  TransportRun run = judge(options, story, nlohmann::json::parse(*stats));
+  if (rival) judge_shares(options, story, *rival, run);
+  return run;
 }
 
 }  // namespace warren

@@ -11,7 +11,7 @@ namespace warren::mesh {
 
 struct UrgentConfig {
   int copies = 3;  // sent in any case, unless acknowledged
-  Duration spacing = std::chrono::milliseconds(20);
+  Duration spacing = std::chrono::milliseconds(15);
   // Afterwards, while unacknowledged, one each round trip, but not more often than this.
   Duration repeat_min = std::chrono::milliseconds(60);
   // Then it is stale and dropped: what must hold through a blackout is a parcel.

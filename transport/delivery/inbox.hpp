@@ -51,6 +51,7 @@ class Inbox {
   const InboxCounts& counts() const { return counts_; }
   void drop_partial() { parcels_.drop_partial(); }
   std::size_t unfinished_bytes() const { return parcels_.unfinished_bytes(); }
+  std::size_t unfinished_parcels() const { return parcels_.handed_on(); }
   SavedIncoming save() const { return parcels_.save(); }
   void restore(const SavedIncoming& saved) { parcels_.restore(saved); }
 

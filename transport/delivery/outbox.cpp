@@ -11,8 +11,8 @@ MeshTime due_now_if(bool any) { return any ? MeshTime::min() : kNever; }
 }  // namespace
 
 Outbox::Outbox(const DeliveryConfig& config, std::uint64_t fresh_stream,
-               const TelemetryBoard& board, ParcelBudget& budget)
-    : urgent_(config.urgent, counts_),
+               const TelemetryBoard& board, ParcelBudget& budget, std::uint32_t first_urgent)
+    : urgent_(config.urgent, counts_, first_urgent),
       telemetry_(board, counts_),
       parcels_(config.parcel, fresh_stream, budget, counts_) {}
 

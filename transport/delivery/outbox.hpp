@@ -24,9 +24,10 @@ namespace warren::mesh {
 // arrive after all. Tickets of before on_peer_restarted() may only come back lost.
 class Outbox {
  public:
-  // The board and the budget outlive it.
+  // The board and the budget outlive it. `first_urgent`: this life of ours has used no number from
+  // it on in urgent messages to the peer.
   Outbox(const DeliveryConfig& config, std::uint64_t fresh_stream, const TelemetryBoard& board,
-         ParcelBudget& budget);
+         ParcelBudget& budget, std::uint32_t first_urgent = 0);
 
   // Precondition: at most UrgentFrame::kBytesMax.
   void send_urgent(MeshTime now, std::span<const std::uint8_t> bytes) { urgent_.send(now, bytes); }
@@ -59,6 +60,7 @@ class Outbox {
 
   const OutboxCounts& counts() const { return counts_; }
   std::size_t unfinished_bytes() const { return parcels_.unfinished_bytes(); }
+  std::uint32_t next_urgent() const { return urgent_.next_number(); }
   SavedOutgoing save() const { return parcels_.save(); }
   void restore(SavedOutgoing saved) { parcels_.restore(std::move(saved)); }
 

@@ -214,6 +214,11 @@ void ParcelInbox::drop_partial() {
   }
 }
 
+std::size_t ParcelInbox::handed_on() const {
+  return static_cast<std::size_t>(std::count_if(
+      parcels_.begin(), parcels_.end(), [](const auto& entry) { return entry.second.handed_on; }));
+}
+
 SavedIncoming ParcelInbox::save() const {
   SavedIncoming saved;
   saved.previous_stream = previous_stream_;

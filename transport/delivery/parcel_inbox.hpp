@@ -55,6 +55,8 @@ class ParcelInbox {
 
   // Charged to the budget.
   std::size_t unfinished_bytes() const { return bytes_ + range_bytes_; }
+  // Parcels handed on and not finished.
+  std::size_t handed_on() const;
   SavedIncoming save() const;
   // Precondition: nothing has come yet.
   void restore(const SavedIncoming& saved);

@@ -36,7 +36,7 @@ MeshTime open_at(MeshTime now, const TokenBucket& bucket, double bytes_per_s) {
 
 void FilledPacket::add(OutgoingFrame&& sent, SendClass send_class) {
   add(std::move(sent.frame), send_class);
-  tickets.push_back(std::move(sent.ticket));
+  tickets.push_back(sent.ticket);
 }
 
 void FilledPacket::add(Frame&& frame, SendClass send_class) {
@@ -73,6 +73,7 @@ struct Scheduler::Filling {
     packet.add(std::move(*frame), send_class);
     return true;
   }
+  bool untouched() const { return packet.frames.size() == given_frames; }
   bool add_next(SendClass send_class) { return add_next(send_class, room); }
   bool add_next(SendClass send_class, std::size_t whole) {
     const Outbox::Room place{left_of(whole), std::max(room, state.room_max)};
@@ -117,7 +118,7 @@ MeshTime Scheduler::next_due(const SendState& state, const Outbox& outbox, const
                  capped(outbox.next_due(SendClass::kTelemetry), telemetry_, config_.telemetry_cap));
   due = std::min(due, outbox.next_due(SendClass::kControlParcel));
   due = std::min(due, outbox.next_due(SendClass::kMessageParcel));
-  const bool source_asked = source_empty_[0] && source_empty_[1];
+  const bool source_asked = (source_empty_[0] && source_empty_[1]) || !state.map_fits();
   return source_asked ? due : MeshTime::min();
 }
 
@@ -143,8 +144,7 @@ void Scheduler::fill_small(Filling& filling) {
 // The value whose turn it is makes the packet larger than those of now, if it must and nothing else
 // is in it.
 void Scheduler::fill_telemetry(Filling& filling) {
-  const bool untouched = filling.packet.frames.size() == filling.given_frames;
-  std::size_t room = std::max(filling.room, untouched ? filling.state.room_max : 0);
+  std::size_t room = std::max(filling.room, filling.untouched() ? filling.state.room_max : 0);
   while (telemetry_.tokens() > filling.bytes_of(SendClass::kTelemetry)) {
     if (!filling.add_next(SendClass::kTelemetry, room)) break;
     room = filling.room;
@@ -173,10 +173,15 @@ std::optional<MapClass> Scheduler::owed(std::size_t room) const {
 }
 
 bool Scheduler::fill_map(Filling& filling, MapClass wanted) {
-  if (source_empty_[index_of(wanted)]) return false;
-  const std::size_t least = std::min(config_.map_room_min, filling.room * 3 / 4);
-  if (filling.left() < least + MapFrame::kOverhead) return false;
-  const std::size_t limit = filling.left() - MapFrame::kOverhead;
+  const SendState& state = filling.state;
+  if (source_empty_[index_of(wanted)] || !state.map_fits()) return false;
+  const std::size_t needed = filling.packet.bytes + MapFrame::kOverhead + state.map_bytes_min;
+  const std::size_t room =
+      filling.untouched() ? std::max(filling.room, std::min(needed, state.room_max)) : filling.room;
+  const std::size_t least =
+      std::max(state.map_bytes_min, std::min(config_.map_room_min, filling.room * 3 / 4));
+  if (filling.left_of(room) < least + MapFrame::kOverhead) return false;
+  const std::size_t limit = filling.left_of(room) - MapFrame::kOverhead;
   auto pulled = filling.pull(wanted, limit);
   if (!pulled) {
     source_empty_[index_of(wanted)] = true;

@@ -26,7 +26,8 @@ struct SchedulerConfig {
   // What the caps may save up, at least so many bytes.
   Duration burst = std::chrono::milliseconds(250);
   double burst_bytes_min = 2200.0;
-  // A map packet is not asked for in less room than this, or than three quarters of the packet.
+  // A map packet is not asked for in less room than this, or than three quarters of the packet,
+  // or than it needs.
   std::size_t map_room_min = 512;
 };
 
@@ -46,6 +47,11 @@ struct SendState {
   // Room of the largest packet that the path carries, though such of now may be smaller: telemetry
   // that needs it gets it, in a packet of its own.
   std::size_t room_max = 0;
+  // The map source has nothing that is smaller, ever. It is not asked in less room; like telemetry
+  // it gets what it needs in a packet of its own. Beyond room_max: not at all.
+  std::size_t map_bytes_min = 1;
+
+  bool map_fits() const { return map_bytes_min + MapFrame::kOverhead <= room_max; }
 };
 
 struct FilledPacket {
@@ -67,8 +73,8 @@ class Scheduler {
 
   // Appends to `packet`. What the caller has put there (acknowledgements and the like) is counted
   // in its `bytes` and `class_bytes`. `room` is of the whole content; one large telemetry value
-  // alone may go beyond, up to SendState::room_max. Nothing is appended only if next_due() lies
-  // ahead, or for want of room.
+  // alone, or a map packet alone, may go beyond, up to SendState::room_max. Nothing is appended
+  // only if next_due() lies ahead, or for want of room.
   void fill(const SendState& state, std::size_t room, Outbox& outbox, Inbox& inbox,
             const PullMap& pull, FilledPacket& packet);
   // Urgent messages only: for when the pacer has no room for more.

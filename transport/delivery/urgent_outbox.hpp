@@ -19,8 +19,8 @@ namespace warren::mesh {
 // arrive in another order.
 class UrgentOutbox {
  public:
-  UrgentOutbox(const UrgentConfig& config, OutboxCounts& counts)
-      : config_(config), counts_(counts) {}
+  UrgentOutbox(const UrgentConfig& config, OutboxCounts& counts, std::uint32_t first_number = 0)
+      : config_(config), counts_(counts), next_number_(first_number) {}
 
   // Precondition: at most UrgentFrame::kBytesMax.
   void send(MeshTime now, std::span<const std::uint8_t> bytes);
@@ -31,6 +31,7 @@ class UrgentOutbox {
   MeshTime next_due() const;
   void on_acked(const UrgentTicket& ticket);
   std::size_t unacknowledged() const { return messages_.size(); }
+  std::uint32_t next_number() const { return next_number_; }
 
  private:
   struct Message {
@@ -44,7 +45,7 @@ class UrgentOutbox {
 
   UrgentConfig config_;
   OutboxCounts& counts_;
-  std::uint32_t next_number_ = 0;
+  std::uint32_t next_number_;
   std::deque<Message> messages_;  // by number
 };
 

@@ -103,7 +103,8 @@ Peer* Discovery::on_session_beacon(MeshTime now, Peer& peer, const Beacon& beaco
 
 void Discovery::on_unconfirmed_beacon(MeshTime now, const PacketHeader& header,
                                       const Beacon& beacon, const MeshPath& from) {
-  if (node_.members.full() && node_.members.find(beacon.member) == nullptr) {
+  // A beacon may be recorded: nobody is forgotten for it yet.
+  if (!node_.has_room_for(now, beacon.member)) {
     node_.count(Unused::kMemberTableFull);
     return;
   }
@@ -172,7 +173,7 @@ void Discovery::send_round(MeshTime now) {
   Beacon beacon;
   beacon.member = node_.config.self;
   beacon.uptime_s = static_cast<std::uint32_t>(
-      std::chrono::duration_cast<std::chrono::seconds>(now - *started_).count());
+      std::chrono::duration_cast<std::chrono::seconds>(now - *node_.started).count());
   beacon.heard = heard_in_turn(now);
 
   BeaconClock::Surroundings surroundings{neighbours(now), misses_someone(now), 0};
@@ -208,7 +209,7 @@ Datagram Discovery::hello(const UnconfirmedBoots::Boot& boot) {
 }
 
 std::optional<Datagram> Discovery::poll(MeshTime now) {
-  if (!started_) started_ = now;
+  if (!node_.started) node_.started = now;
   if (round_.empty() && clock_.next() <= now) send_round(now);
   std::optional<Datagram> datagram;
   SentClass sent_class = SentClass::kBeacon;

@@ -53,7 +53,6 @@ class Discovery {
   std::deque<Datagram> round_;  // the rest of the beacons that are due
   std::uint64_t beacon_number_ = 0;
   MemberId heard_turn_;  // whom the last beacon told of last
-  std::optional<MeshTime> started_;
 };
 
 }  // namespace warren::mesh

@@ -18,7 +18,9 @@ struct Endpoint::State {
       : node(config, std::move(keys), source),
         discovery(node),
         reception(node, discovery),
-        transmission(node) {}
+        transmission(node) {
+    node.on_forget = [this](Peer& peer) { transmission.forget(peer); };
+  }
 
   void refresh(MeshTime now, Peer* peer) {
     if (peer != nullptr) transmission.refresh(now, *peer);
@@ -40,6 +42,9 @@ Endpoint::Endpoint(const EndpointConfig& config, std::shared_ptr<const KeySchedu
                    MapSource& source)
     : state_(std::make_unique<State>(config, std::move(keys), source)) {
   assert(!config.interfaces.empty() && Node::can_be_member(config.self));
+  assert(std::all_of(
+      config.interfaces.begin(), config.interfaces.end(),
+      [](const InterfaceConfig& c) { return c.mtu_bytes >= InterfaceConfig::kMtuLeast; }));
 }
 
 Endpoint::~Endpoint() = default;
@@ -97,7 +102,7 @@ tl::expected<ParcelKey, SendError> Endpoint::send_parcel(MeshTime now, MemberId 
                                                          ParcelClass priority,
                                                          std::span<const std::uint8_t> bytes) {
   if (!state_->node.can_be_peer(to)) return tl::unexpected(SendError::kUnknownMember);
-  Peer* peer = state_->node.find_or_add(to);
+  Peer* peer = state_->node.find_or_add(now, to);
   if (peer == nullptr) return tl::unexpected(SendError::kFull);
   const auto key = peer->outbox.send_parcel(priority, bytes);
   if (!key) {
@@ -135,7 +140,14 @@ std::vector<Member> Endpoint::members() const {
   return members;
 }
 
-const EndpointCounts& Endpoint::counts() const { return state_->node.counts; }
+EndpointCounts Endpoint::counts() const {
+  EndpointCounts counts = state_->node.counts;
+  for (const auto& [id, peer] : state_->node.members) {
+    counts.outbox += peer->outbox.counts();
+    counts.inbox += peer->inbox.counts();
+  }
+  return counts;
+}
 
 std::size_t Endpoint::memory_bytes() const {
   std::size_t bytes = sizeof(State) + state_->discovery.memory_bytes();
@@ -158,8 +170,9 @@ bool Endpoint::restore(std::span<const std::uint8_t> saved) {
   auto peers = read_saved_parcels(saved);
   if (!peers || peers->size() > state_->node.config.members_max) return false;
   for (SavedPeer& from : *peers) {
-    Peer* peer = state_->node.find_or_add(from.member);
-    assert(peer != nullptr);  // nothing was there before
+    // Nothing was there before: nobody is forgotten for it.
+    Peer* peer = state_->node.find_or_add(MeshTime::min(), from.member);
+    assert(peer != nullptr);
     peer->outbox.restore(std::move(from.outgoing));
     peer->inbox.restore(from.incoming);
   }

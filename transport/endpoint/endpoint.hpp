@@ -22,6 +22,9 @@
 namespace warren::mesh {
 
 struct InterfaceConfig {
+  // Precondition: no MTU is smaller. Answers about parcels would not fit.
+  static constexpr std::size_t kMtuLeast = 300;
+
   std::size_t mtu_bytes = 1428;         // of an IP packet, headers included
   std::size_t ip_header_bytes = 28;     // IP and UDP: 28, or 48 with IPv6
   std::optional<double> ceiling_bit_s;  // of all that this node sends there, IP bytes
@@ -35,6 +38,8 @@ struct EndpointConfig {
   BootId boot;  // 64 fresh random bits
   std::uint64_t random_seed = 0;
   std::vector<InterfaceConfig> interfaces;
+  // Others that are known. When full, a new one takes the place of the one not heard for longest
+  // (10 minutes at least) with which no parcel is unfinished.
   std::size_t members_max = 256;
   std::size_t parcels_bytes_max = 64'000'000;  // of all unfinished ones, sent and received
 };
@@ -57,6 +62,10 @@ struct MemberDown {
   MemberId member;
 };  // silent; its session lives on
 struct MemberRestarted {
+  MemberId member;
+};
+// The table of members was full, and it was the one not heard for longest.
+struct MemberForgotten {
   MemberId member;
 };
 struct MemberMoved {
@@ -89,8 +98,9 @@ struct MapArrived {
   MapClass priority;
   std::vector<std::uint8_t> bytes;
 };
-using MeshEvent = std::variant<MemberUp, MemberDown, MemberRestarted, MemberMoved, UrgentArrived,
-                               TelemetryArrived, ParcelArrived, ParcelDelivered, MapArrived>;
+using MeshEvent =
+    std::variant<MemberUp, MemberDown, MemberRestarted, MemberForgotten, MemberMoved, UrgentArrived,
+                 TelemetryArrived, ParcelArrived, ParcelDelivered, MapArrived>;
 
 // The layer above, asked for map packets when there is room to send one. It is told of each what
 // became of it, in any order; one told lost may be told acknowledged later: it was only late.
@@ -102,6 +112,9 @@ class MapSource {
     std::vector<std::uint8_t> bytes;  // at most the limit asked for
   };
   virtual ~MapSource() = default;
+  // It is asked for no packet with a lower limit than this: a path that carries less carries none.
+  // Constant.
+  virtual std::size_t bytes_min() const { return 1; }
   // A packet of exactly this class. Nothing: nothing of it to send there until Endpoint::wake().
   virtual std::optional<Packet> next_for(MemberId to, MapClass wanted, std::size_t limit) = 0;
   // For all who hear this interface; nobody acknowledges those.
@@ -149,7 +162,8 @@ class Endpoint {
   void wake_group(InterfaceIndex interface);
 
   std::vector<Member> members() const;
-  const EndpointCounts& counts() const;
+  // Of this life, over all members.
+  EndpointCounts counts() const;
   std::size_t memory_bytes() const;
 
   // What is unfinished, as bytes: parcels not handed over, streams, which were finished. Given to a

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "transport/delivery/delivery_counts.hpp"
+
 namespace warren::mesh {
 
 // Why something that came in was not used.
@@ -18,11 +20,15 @@ enum class Unused : std::uint8_t {
   kRetiredBoot,        // of a life that has ended
   kNotFresh,           // authentic, but perhaps recorded: what it says has to be proved
   kUnknownSender,      // authentic, but does not say who sends
-  kMemberTableFull,    // a new member beyond members_max
+  kMemberTableFull,    // a new member beyond members_max, and nobody to be forgotten
   kAnswerRateLimited,  // beacons of unconfirmed boots that got no answer
-  kNoRoomForParcel,    // fragments refused for memory
   kCount
 };
+
+inline constexpr std::array<const char*, static_cast<std::size_t>(Unused::kCount)> kUnusedNames{
+    "no_packet_of_ours", "own_echo",          "own_member",         "not_authentic",
+    "malformed",         "replayed",          "retired_boot",       "not_fresh",
+    "unknown_sender",    "member_table_full", "answer_rate_limited"};
 
 // First as SendClass, then what goes to all.
 enum class SentClass : std::uint8_t {
@@ -38,6 +44,10 @@ enum class SentClass : std::uint8_t {
   kCount
 };
 
+inline constexpr std::array<const char*, static_cast<std::size_t>(SentClass::kCount)>
+    kSentClassNames{"urgent", "control", "telemetry", "control_parcel", "message_parcel",
+                    "fresh",  "backlog", "beacon",    "group"};
+
 struct ClassCounts {
   std::uint64_t packets = 0;  // with something of this class
   std::uint64_t bytes = 0;    // of its frames; envelope and IP header left out
@@ -50,6 +60,10 @@ struct EndpointCounts {
   std::uint64_t ip_bytes_in = 0;
   std::uint64_t packets_out = 0;
   std::uint64_t ip_bytes_out = 0;
+  std::uint64_t members_forgotten = 0;  // for new ones, the table being full
+  // Over all members, those forgotten too.
+  OutboxCounts outbox;
+  InboxCounts inbox;
 
   std::uint64_t& operator[](Unused reason) { return unused[static_cast<std::size_t>(reason)]; }
   std::uint64_t operator[](Unused reason) const { return unused[static_cast<std::size_t>(reason)]; }

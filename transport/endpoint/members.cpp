@@ -24,6 +24,13 @@ Peer& Members::add(std::unique_ptr<Peer> peer) {
   return *added->second;
 }
 
+void Members::remove(MemberId id) {
+  const auto peer = by_id_.find(id);
+  assert(peer != by_id_.end());
+  if (peer->second->session) by_boot_.erase(peer->second->session->keys.peer().bits);
+  by_id_.erase(peer);
+}
+
 void Members::begin_session(Peer& peer, Session session) {
   if (peer.session) retire(peer.session->keys.peer());
   by_boot_[session.keys.peer().bits] = &peer;

@@ -28,6 +28,8 @@ class Members {
   bool full() const { return by_id_.size() >= members_max_; }
   // Precondition: not full(), no such member.
   Peer& add(std::unique_ptr<Peer> peer);
+  // Its boot is not taken for one that has ended: it may come again.
+  void remove(MemberId id);
   // The peer runs in this boot from now on: the session it had is over.
   void begin_session(Peer& peer, Session session);
 

@@ -29,15 +29,51 @@ Node::Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule>
   }
 }
 
-Peer* Node::find_or_add(MemberId id) {
+Peer* Node::forgettable(MeshTime now) {
+  Peer* oldest = nullptr;
+  MeshTime oldest_heard = now - kForgetAfter;
+  for (const auto& [id, peer] : members) {
+    const MeshTime heard = std::max(peer->liveness.heard(), started.value_or(now));
+    if (heard >= oldest_heard || peer->liveness.up() || peer->holds_parcels()) continue;
+    oldest = peer.get();
+    oldest_heard = heard;
+  }
+  return oldest;
+}
+
+void Node::forget(MeshTime now, Peer& peer) {
+  if (peer.session) {
+    free_pair_number = std::max(free_pair_number, peer.session->keys.next_number());
+    settle(now, peer, peer.session->flow.abandon());
+  }
+  fresh_from = free_pair_number;
+  free_urgent_number = std::max(free_urgent_number, peer.outbox.next_urgent());
+  on_forget(peer);
+  for (NodePacer& pacer : pacers) pacer.forget(peer.id.number);
+  events.emplace_back(MemberForgotten{peer.id});
+  ++counts.members_forgotten;
+  counts.outbox += peer.outbox.counts();
+  counts.inbox += peer.inbox.counts();
+  members.remove(peer.id);
+}
+
+bool Node::has_room_for(MeshTime now, MemberId id) {
+  return !members.full() || members.find(id) != nullptr || forgettable(now) != nullptr;
+}
+
+Peer* Node::find_or_add(MeshTime now, MemberId id) {
   if (Peer* known = members.find(id)) return known;
   if (members.full()) {
-    count(Unused::kMemberTableFull);
-    return nullptr;
+    Peer* oldest = forgettable(now);
+    if (oldest == nullptr) {
+      count(Unused::kMemberTableFull);
+      return nullptr;
+    }
+    forget(now, *oldest);
   }
   const DeliveryConfig delivery;
-  auto peer = std::make_unique<Peer>(id, delivery, jitter.bits(), board, sent_budget,
-                                     received_budget, config.interfaces.size());
+  auto peer = std::make_unique<Peer>(id, delivery, jitter.bits(), free_urgent_number, board,
+                                     sent_budget, received_budget, config.interfaces.size());
   return &members.add(std::move(peer));
 }
 

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "transport/delivery/parcel_budget.hpp"
@@ -18,14 +20,21 @@ namespace warren::mesh {
 
 // What the parts of an endpoint share.
 struct Node {
+  static constexpr Duration kForgetAfter = std::chrono::minutes(10);
+
   Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule> key_schedule,
        MapSource& map_source);
 
   static bool can_be_member(MemberId id) { return id.number != NodePacer::kGroup; }
   // Whether it can be another one.
   bool can_be_peer(MemberId id) const { return id != config.self && can_be_member(id); }
-  // The member, made known if it is not; none if there is no room for it.
-  Peer* find_or_add(MemberId id);
+  // The member, made known if it is not; none if there is no room for it, nor anybody to be
+  // forgotten for it.
+  Peer* find_or_add(MeshTime now, MemberId id);
+  bool has_room_for(MeshTime now, MemberId id);
+  // Who gives way if the table is full: the member not heard for longest, if that is longer than
+  // kForgetAfter and it holds no parcels.
+  Peer* forgettable(MeshTime now);
   // A pair packet proved this boot.
   void begin_session(MeshTime now, Peer& peer, BootId boot);
   // Tells everybody what became of what was sent.
@@ -57,10 +66,21 @@ struct Node {
   ParcelBudget sent_budget;
   ParcelBudget received_budget;
   Members members;
-  std::vector<NodePacer> pacers;  // by interface
-  bool somebody_came_up = false;  // since Endpoint looked last
+  std::vector<NodePacer> pacers;    // by interface
+  std::optional<MeshTime> started;  // the first time that something was sent, or could have been
+  bool somebody_came_up = false;    // since Endpoint looked last
   // Above all numbers used with pairs of which there is no session: none is ever used twice.
   std::uint64_t free_pair_number = 0;
+  // Likewise of urgent messages to members that were forgotten: they may know us still.
+  std::uint32_t free_urgent_number = 0;
+  // Who comes without a session may have been forgotten: it has to acknowledge a number that was
+  // not used before the last forgetting, or what it sends may be recorded. None: nobody was.
+  std::optional<std::uint64_t> fresh_from;
+  // Of a peer that is about to be no more.
+  std::function<void(Peer&)> on_forget;
+
+ private:
+  void forget(MeshTime now, Peer& peer);
 };
 
 }  // namespace warren::mesh

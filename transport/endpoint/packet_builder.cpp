@@ -131,9 +131,12 @@ SendState send_state(const Node& node, MeshTime now, const Peer& peer) {
   const auto path = peer.paths.current();
   const InterfaceIndex interface = path ? path->interface : InterfaceIndex { 0 };
   const InterfaceConfig& config = node.config.interfaces[interface];
-  return {now, flow.pace(), flow.quality().rtt.value_or(Duration{}),
+  return {now,
+          flow.pace(),
+          flow.quality().rtt.value_or(Duration{}),
           config.ip_header_bytes + kEnvelopeBytes,
-          path ? room_of(node, interface, peer.paths.size().limit(config.mtu_bytes)) : 0};
+          path ? room_of(node, interface, peer.paths.size().limit(config.mtu_bytes)) : 0,
+          node.source.bytes_min()};
 }
 
 std::optional<Datagram> build_packet(Node& node, MeshTime now, Peer& peer, PacketFill fill) {

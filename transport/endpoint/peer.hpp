@@ -21,8 +21,8 @@ namespace warren::mesh {
 
 // With one boot of a peer, from its first pair packet on; it outlives any silence.
 struct Session {
-  Session(SessionKeys session_keys, Flow session_flow)
-      : keys(std::move(session_keys)), flow(std::move(session_flow)) {}
+  Session(const SessionKeys& session_keys, Flow session_flow)
+      : keys(session_keys), flow(std::move(session_flow)) {}
 
   SessionKeys keys;
   Flow flow;
@@ -53,12 +53,17 @@ struct Peer {
   static constexpr Duration kReplyLeast = std::chrono::milliseconds(20);
 
   Peer(MemberId member, const DeliveryConfig& delivery, std::uint64_t fresh_stream,
-       const TelemetryBoard& board, ParcelBudget& sent, ParcelBudget& received,
-       std::size_t interfaces)
+       std::uint32_t first_urgent, const TelemetryBoard& board, ParcelBudget& sent,
+       ParcelBudget& received, std::size_t interfaces)
       : id(member),
-        outbox(delivery, fresh_stream, board, sent),
+        outbox(delivery, fresh_stream, board, sent, first_urgent),
         inbox(delivery, received),
         paths(interfaces) {}
+
+  // Something of it was promised, or the layer above has not finished it.
+  bool holds_parcels() const {
+    return outbox.unfinished_bytes() > 0 || inbox.unfinished_parcels() > 0;
+  }
 
   MemberId id;
   Outbox outbox;
@@ -85,7 +90,8 @@ struct Peer {
   // Packets may go to it whenever there is something.
   bool in_reach(MeshTime now) const { return session && liveness.up() && !is_silent(now); }
 
-  static constexpr Duration kSilence = std::chrono::milliseconds(1500);
+  // Acknowledgements lost in a row can last seconds; the flow sends less and less meanwhile.
+  static constexpr Duration kSilence = std::chrono::seconds(4);
   static constexpr int kSilenceRtts = 4;
 };
 

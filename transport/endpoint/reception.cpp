@@ -2,6 +2,7 @@
 #include "transport/endpoint/reception.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "transport/visitor.hpp"
@@ -88,14 +89,22 @@ Peer* Reception::on_first_packet(MeshTime now, const PacketHeader& header, const
     node_.count(hello->member == node_.config.self ? Unused::kOwnMember : Unused::kMalformed);
     return nullptr;
   }
-  Peer* peer = node_.find_or_add(hello->member);
-  if (peer == nullptr) return nullptr;
-  if (peer->session && !acknowledges_since(*frames, peer->session->keys.first_number())) {
-    // Perhaps recorded in a life before the one that we know, and never received.
+  if (!node_.has_room_for(now, hello->member)) {
+    node_.count(Unused::kMemberTableFull);
+    return nullptr;
+  }
+  // Perhaps recorded in a life before the one that we know, and never received; or before its
+  // sender was forgotten.
+  const Peer* known = node_.members.find(hello->member);
+  const auto fresh_from = known != nullptr && known->session
+                              ? std::optional(known->session->keys.first_number())
+                              : node_.fresh_from;
+  if (fresh_from && !acknowledges_since(*frames, *fresh_from)) {
     node_.count(Unused::kNotFresh);
     discovery_.challenge(now, header.sender, hello->member, from);
     return nullptr;
   }
+  Peer* peer = node_.find_or_add(now, hello->member);
   node_.begin_session(now, *peer, header.sender);
   discovery_.on_confirmed(header.sender);
   return peer;

@@ -54,6 +54,12 @@ void Transmission::set_turn(Peer& peer, std::optional<InterfaceIndex> interface)
   }
 }
 
+void Transmission::forget(Peer& peer) {
+  set_deadline(peer, kNever);
+  set_prompt(peer, false);
+  set_turn(peer, std::nullopt);
+}
+
 void Transmission::wake_group(InterfaceIndex interface) {
   if (!node_.config.interfaces[interface].group_broadcast || group_awake_[interface]) return;
   group_awake_[interface] = true;
@@ -177,7 +183,8 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
   });
   const std::size_t limit =
       config.mtu_bytes - config.ip_header_bytes - kEnvelopeBytes - MapFrame::kOverhead;
-  auto packet = heard ? node_.source.next_for_group(interface, limit) : std::nullopt;
+  const bool fits = limit >= node_.source.bytes_min();
+  auto packet = heard && fits ? node_.source.next_for_group(interface, limit) : std::nullopt;
   if (!packet) {
     group_alone_[interface] = !heard;
     group_awake_[interface] = false;

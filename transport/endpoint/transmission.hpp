@@ -21,6 +21,8 @@ class Transmission {
   // Something about the peer has changed.
   void refresh(MeshTime now, Peer& peer, bool serviced = false);
   void wake_group(InterfaceIndex interface);
+  // The peer is about to be no more.
+  void forget(Peer& peer);
 
   std::optional<Datagram> poll(MeshTime now);
   MeshTime next(MeshTime now) const;

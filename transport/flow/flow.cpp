@@ -5,20 +5,21 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/flow/node_pacer.hpp"
+
 namespace warren::mesh {
 namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Duration kSilence = milliseconds{2000};  // without progress, beyond round trips
+constexpr Duration kSilence = milliseconds{1500};  // without progress, beyond round trips
 constexpr Duration kQuiet = milliseconds{100};
 constexpr double kQuietShare = 1.0;  // of the rate, while it is quiet
-constexpr double kProbeShare = 0.5;  // of the rate, while silent
 constexpr Duration kProbeMin = milliseconds{20};
 constexpr Duration kProbeMax = milliseconds{200};
-constexpr Duration kProbeSoon = std::chrono::seconds{4};  // of silence: then less often
-constexpr double kRepeatShare = 0.04;                     // of the bytes sent for the first time
+constexpr double kRepeatShare = 0.04;  // of the bytes sent for the first time
 constexpr double kRepeatBytesMax = 6'000.0;
+constexpr double kRepeatSecondsMax = 0.01;    // of the rate, on fast links
 constexpr std::size_t kAtOnceBytes = 64'000;  // beyond what may be in flight
 
 }  // namespace
@@ -32,17 +33,21 @@ void Flow::on_sent(MeshTime now, Sent sent) {
   if (sent.repeat) {
     repeat_bytes_ -= bytes;
   } else {
-    repeat_bytes_ = std::min(repeat_bytes_ + kRepeatShare * bytes, kRepeatBytesMax);
+    const double most = std::max(kRepeatBytesMax, kRepeatSecondsMax * rate_.rate());
+    repeat_bytes_ = std::min(repeat_bytes_ + kRepeatShare * bytes, most);
   }
   // Full in flight is no want of something to send either.
   const bool full =
       rate_.known() && sent_.bytes_in_flight() + 2 * sent.ip_bytes > in_flight_max(now);
-  const Duration airtime{std::llround(bytes * 1e6 / rate_.pace())};
+  // What a packet waits beyond the airtime of our own before it went to other peers.
   const Duration spacing = now - last_sent_;
+  const Duration own = sent.backlogged ? std::min(own_ahead_, spacing) : spacing;
+  own_ahead_ = std::clamp(own_ahead_ - spacing, Duration{0}, NodePacer::kAheadMax) +
+               Duration{std::llround(bytes * 1e6 / rate_.pace())};
   last_sent_ = now;
   sent_.on_sent(sent.number, {.sent = now,
                               .ip_bytes = sent.ip_bytes,
-                              .own = sent.backlogged ? std::min(airtime, spacing) : spacing,
+                              .own = own,
                               .busy = sent.backlogged || full,
                               .wants_ack = sent.wants_ack,
                               .tickets = std::move(sent.tickets)});
@@ -97,9 +102,12 @@ MeshTime Flow::silence_time() const {
   return waiting ? last_progress_ + kSilence + 2 * trip : kNever;
 }
 
+// The share of the rate that still goes out falls as the silence lasts, as its inverse.
 Duration Flow::probe_period() const {
-  if (!rate_.known() || last_probe_ > last_progress_ + kProbeSoon) return kProbeMax;
-  const double us = static_cast<double>(packet_bytes()) * 1e6 / (kProbeShare * rate_.rate());
+  if (!rate_.known()) return kProbeMax;
+  const Duration waited = std::max(last_probe_ - last_progress_, kSilence);
+  const double share = static_cast<double>(kSilence.count()) / static_cast<double>(waited.count());
+  const double us = static_cast<double>(packet_bytes()) * 1e6 / (share * rate_.rate());
   return std::clamp(Duration{std::llround(us)}, kProbeMin, kProbeMax);
 }
 

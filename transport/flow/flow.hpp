@@ -90,6 +90,7 @@ class Flow {
   std::uint64_t next_number_ = 0;
   MeshTime last_time_{};  // told by on_time()
   MeshTime last_sent_{};
+  Duration own_ahead_{};      // of what was sent, the airtime that was to come at last_sent_
   MeshTime last_progress_{};  // an acknowledgement came, or the first packet went out
   MeshTime last_probe_{};
   bool silent_ = false;        // nothing is acknowledged: only single packets go out

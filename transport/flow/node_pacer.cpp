@@ -8,8 +8,6 @@ namespace warren::mesh {
 namespace {
 
 constexpr Duration kBurst = std::chrono::milliseconds{2};
-// What did not wait for its turn delays the others no longer than this.
-constexpr Duration kAheadMax = std::chrono::milliseconds{250};
 
 Duration airtime(std::size_t ip_bytes, double rate) {
   return Duration{std::llround(static_cast<double>(ip_bytes) * 1e6 / std::max(rate, 1.0))};

@@ -18,6 +18,8 @@ class NodePacer {
   using Peer = std::uint32_t;  // the owner's number for it
   // The name of packets that go to all: no member may have it.
   static constexpr Peer kGroup = UINT32_MAX;
+  // What did not wait for its turn delays the others no longer than this.
+  static constexpr Duration kAheadMax = std::chrono::milliseconds{250};
 
   // The ceiling is for all that the node sends there.
   explicit NodePacer(std::optional<double> ceiling_bit_s) : ceiling_(ceiling_bit_s) {}
@@ -25,6 +27,8 @@ class NodePacer {
   // Who wants to send a paced packet now. A peer that cannot (nothing to send, no room in flight)
   // should be unset, or it stalls nobody but itself.
   void want(Peer peer, bool wants);
+  // The peer is no more; what it owes is forgotten.
+  void forget(Peer peer) { shares_.erase(peer); }
 
   // No packet before this; the past means at once.
   MeshTime ready_at() const { return ready_at_; }

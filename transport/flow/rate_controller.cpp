@@ -17,8 +17,9 @@ constexpr double kRateMin = 1'000.0;
 constexpr double kRateMax = 1e9;
 constexpr std::size_t kFirstPackets = 8;  // in flight until something is known
 constexpr std::size_t kFirstPacketBytes = 400;
-constexpr double kStartGrowth = 4.0;  // in flight, per byte acknowledged while starting
-constexpr Duration kPacketAirtime = milliseconds{75};
+constexpr double kStartGrowth = 4.0;      // in flight, per byte acknowledged while starting
+constexpr double kPacketOverhead = 80.0;  // IP bytes around what a packet carries
+constexpr double kAirtimeWorth = 0.66;    // seconds of airtime that weigh as much as all bytes
 
 constexpr Duration kTargetFloor = milliseconds{8};
 constexpr Duration kTargetSlope = milliseconds{14};  // at 1 Mbit/s; falls with the root of the rate
@@ -192,7 +193,10 @@ void RateController::end_round(const ArrivalRate::Measure& seen) {
       std::max(1.0 - std::max(0.03, 0.4 * (1.0 - full)) - 0.7 * doubt, full + 0.25 * (1.0 - full));
   if (passed >= needed) {
     set_rate(std::max(rate_, rate_ * gain_ * std::min(passed, 1.0)));
-    gain_ = std::min(kGainMax, std::max(kGainFirst, 1.0 + kGainGrowth * (gain_ - 1.0)));
+    // Not all of it passed: that is the link's rate, or near it.
+    const bool all = passed >= 0.5 * (1.0 + full);
+    const double next = all ? 1.0 + kGainGrowth * (gain_ - 1.0) : kGainFirst;
+    gain_ = std::clamp(next, kGainFirst, kGainMax);
   } else {
     const double fall = kFallMax * std::clamp(kCertain / doubt, 0.3, 1.0);
     set_rate(std::clamp(seen.rate, rate_ * (1.0 - fall), rate_ * gain_));
@@ -272,9 +276,11 @@ std::size_t RateController::in_flight_max() const {
   return packets + static_cast<std::size_t>(bytes);
 }
 
+// Headers are a share of each packet, its airtime is waited for by all behind it: the sum of
+// overhead / bytes and bytes / rate / worth is the least here. 575 bytes at 50 kbit/s.
 std::size_t RateController::packet_bytes() const {
   if (!known_) return std::min(kFirstPacketBytes, config_.packet_bytes_max);
-  const auto bytes = static_cast<std::size_t>(rate_ * s(kPacketAirtime));
+  const auto bytes = static_cast<std::size_t>(std::sqrt(kPacketOverhead * rate_ * kAirtimeWorth));
   return std::clamp(bytes, std::min(config_.packet_bytes_min, config_.packet_bytes_max),
                     config_.packet_bytes_max);
 }

@@ -67,3 +67,19 @@ TEST_CASE("a blackout is waited for, and the first byte after it is told") {
   CHECK(peer["first_byte_s"] >= 0.01);
   CHECK(peer["first_byte_s"] < 20.0);
 }
+
+TEST_CASE("beside another flow both shares of the link are told") {
+  if (!may_make_namespaces()) return;
+  const auto result = bench(
+      "--bytes 400000 --rate 2e6 --rtt-ms 20 --peers ours,tcp-cubic --against tcp-cubic --jobs 2");
+  CHECK(result["against"] == "tcp-cubic");
+  for (const auto& [name, peer] : result["peers"].items()) {
+    CAPTURE(name);
+    CHECK(!peer.contains("problem"));
+    CHECK(peer["share"] > 0.01);
+    CHECK(peer["share"] < 0.99);
+    CHECK(peer["rival_efficiency"] > 0.0);
+    CHECK(peer["efficiency"].get<double>() + peer["rival_efficiency"].get<double>() < 1.0);
+    CHECK(peer["oversend"].is_null());
+  }
+}

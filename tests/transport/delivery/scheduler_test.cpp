@@ -43,7 +43,7 @@ struct SchedulerFixture {
     CHECK(packet.bytes <= kRoom);
     return packet;
   }
-  SendState state() const { return {now, kRate, 100ms, kOverhead, 0}; }
+  SendState state() const { return {now, kRate, 100ms, kOverhead, kRoom}; }
   void set(std::uint16_t key, std::size_t bytes) {
     REQUIRE(board.set(key, std::vector<std::uint8_t>(bytes)));
     outbox.on_telemetry_set(key);

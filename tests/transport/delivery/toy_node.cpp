@@ -76,7 +76,7 @@ void ToyNode::send_urgent(MeshTime now, std::uint32_t number) {
 
 FilledPacket ToyNode::fill(MeshTime now, std::size_t room) {
   FilledPacket packet;
-  const SendState state{now, 125'000.0, std::chrono::milliseconds(50), 60};
+  const SendState state{now, 125'000.0, std::chrono::milliseconds(50), 60, room};
   const auto no_map = [](MapClass, std::size_t) { return std::optional<PulledMap>{}; };
   scheduler_->fill(state, room, *outbox_, *inbox_, no_map, packet);
   assert(packet.bytes <= room);

@@ -38,12 +38,12 @@ TEST_CASE_FIXTURE(UrgentFixture,
   for (MeshTime now = kStart; now < kStart + 3s; now += 1ms) {
     if (outbox.next(now, 1000, kRtt)) sent_after.push_back(now - kStart);
   }
-  REQUIRE(sent_after.size() == 22);  // at 0, 20, 40, 140, ..., 1940 ms
+  REQUIRE(sent_after.size() == 22);  // at 0, 15, 30, 130, ..., 1930 ms
   CHECK(sent_after[0] == 0ms);
-  CHECK(sent_after[1] == 20ms);
-  CHECK(sent_after[2] == 40ms);
-  CHECK(sent_after[3] == 140ms);
-  CHECK(sent_after.back() == 1940ms);
+  CHECK(sent_after[1] == 15ms);
+  CHECK(sent_after[2] == 30ms);
+  CHECK(sent_after[3] == 130ms);
+  CHECK(sent_after.back() == 1930ms);
   CHECK(counts.urgent_expired == 1);
   CHECK(counts.urgent_copies == 21);
   CHECK(outbox.next_due() == kNever);
@@ -57,7 +57,7 @@ TEST_CASE_FIXTURE(UrgentFixture, "an acknowledgement stops the copies of that me
   CHECK_FALSE(outbox.next(kStart, 1000, kRtt));
   outbox.on_acked(std::get<UrgentTicket>(first->ticket));
   CHECK(outbox.unacknowledged() == 1);
-  CHECK(outbox.next_due() == kStart + 20ms);
+  CHECK(outbox.next_due() == kStart + 15ms);
   CHECK(number_of(outbox.next(kStart + 20ms, 1000, kRtt)) != number_of(first));
   CHECK_FALSE(outbox.next(kStart + 20ms, 1000, kRtt));
 }

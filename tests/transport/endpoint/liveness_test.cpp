@@ -71,6 +71,22 @@ TEST_CASE("who is heard but does not hear us for long goes down") {
   CHECK(down);
 }
 
+TEST_CASE("in a crowd a member's turn in the lists may take longer") {
+  constexpr std::size_t kCrowd = 250;
+  Liveness liveness;
+  liveness.on_pair_packet(kStart);
+  MeshTime now = kStart;
+  // Named in one list of 31, each a second after the last.
+  for (int i = 1; i <= 3 * 31; ++i) {
+    now += seconds(1);
+    liveness.on_beacon(now, seconds(1), kCrowd);
+    if (i % 31 == 0) liveness.on_hears_us(now);
+    const auto changed = liveness.update(now);
+    CHECK((!changed || *changed));
+  }
+  CHECK(liveness.up());
+}
+
 TEST_CASE("no told period keeps a member up forever") {
   Liveness liveness;
   liveness.on_pair_packet(kStart);

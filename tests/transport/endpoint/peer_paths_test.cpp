@@ -72,5 +72,40 @@ TEST_CASE("of two paths that are heard the one that loses less is used") {
   CHECK(paths.current() == path(1, 5));
 }
 
+TEST_CASE("a second address on the same interface is left alone while the proved one is heard") {
+  PeerPaths paths(1);
+  paths.on_pair_packet(kStart, path(0, 1), true);
+  MeshTime now = kStart;
+  for (int i = 0; i < 20; ++i) {
+    now += seconds(1);
+    paths.on_beacon(now, path(0, 1), seconds(1));
+    CHECK_FALSE(paths.take_probe(now, path(0, 2)));
+  }
+  now += PeerPaths::kStaleLeast + seconds(1);
+  CHECK(paths.take_probe(now, path(0, 2)));
+}
+
+TEST_CASE(
+    "a path that was bad is used again when its beacons come through and the other is worse") {
+  PeerPaths paths(2);
+  paths.on_pair_packet(kStart, path(0, 1), true);
+  paths.on_pair_packet(kStart, path(1, 5), true);
+  paths.on_beacon(kStart, path(0, 1), seconds(1));
+  paths.on_beacon(kStart, path(1, 5), seconds(1));
+  paths.note_quality(0.8, milliseconds(20));
+  MeshTime now = kStart + milliseconds(500);
+  REQUIRE(paths.choose(now));
+  REQUIRE(paths.current() == path(1, 5));
+  // Beacons pass on both; where we are, a third of the packets is lost.
+  for (int i = 0; i < 40; ++i) {
+    now += milliseconds(900);
+    paths.on_beacon(now, path(0, 1), seconds(1));
+    paths.on_beacon(now, path(1, 5), seconds(1));
+  }
+  paths.note_quality(0.3, milliseconds(20));
+  CHECK(paths.choose(now));
+  CHECK(paths.current() == path(0, 1));
+}
+
 }  // namespace
 }  // namespace warren::mesh

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -57,7 +58,7 @@ inline LinkOutcome run_case(const LinkCase& link, std::uint64_t seed) {
   if (!transfer.finished(0)) return outcome;
   const double took = seconds_of(transfer.finished(0)->time_since_epoch());
   const auto bytes = static_cast<double>(link.app_bytes);
-  const double packet = std::clamp(link.rate_bit_s / 8.0 * 0.075, 300.0, 1428.0);
+  const double packet = std::clamp(std::sqrt(80.0 * link.rate_bit_s / 8.0 * 0.66), 300.0, 1428.0);
   const double needed = bytes * packet / (packet - Transfer::kOverhead) / (1.0 - link.loss);
   outcome.efficiency = bytes * 8.0 / (link.rate_bit_s * (1.0 - link.loss) * took);
   outcome.oversend = static_cast<double>(transfer.data_bytes_sent(0)) / needed;

@@ -52,7 +52,7 @@ TEST_CASE("a fifth lost in bursts of 20 packets") {
   }
 }
 
-TEST_CASE("200 kB at 50 kbit/s, in packets of 75 ms") {
+TEST_CASE("200 kB at 50 kbit/s, in packets of 92 ms") {
   for (const double loss : {0.05, 0.2}) {
     CAPTURE(loss);
     const LinkOutcome outcome =
