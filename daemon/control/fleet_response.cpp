@@ -143,18 +143,17 @@ void fill_refused(const FleetReport& report, Counts& refused) {
 
 }  // namespace
 
-std::string encode_fleet_status(const std::optional<FleetReport>& report) {
+std::string encode_fleet_status(const FleetReport& report) {
   control::Response response;
   auto& status = *response.mutable_fleet_status();
-  status.set_mesh_on(report.has_value());
-  if (!report) return framed(response.SerializeAsString());
-  for (const FleetNodeReport& node : report->nodes) fill(*report, node, *status.add_nodes());
-  for (const auto& interface : report->interfaces) fill(interface, *status.add_interfaces());
-  fill(report->endpoint, status);
-  fill_refused(*report, *status.mutable_refused());
-  status.set_memory_bytes(report->memory_bytes);
-  status.set_batches_stored(report->batches_stored);
-  status.set_batches_failed(report->batches_failed);
+  status.set_mesh_on(report.mesh_on);
+  for (const FleetNodeReport& node : report.nodes) fill(report, node, *status.add_nodes());
+  for (const auto& interface : report.interfaces) fill(interface, *status.add_interfaces());
+  fill(report.endpoint, status);
+  fill_refused(report, *status.mutable_refused());
+  status.set_memory_bytes(report.memory_bytes);
+  status.set_batches_stored(report.batches_stored);
+  status.set_batches_failed(report.batches_failed);
   return framed(response.SerializeAsString());
 }
 

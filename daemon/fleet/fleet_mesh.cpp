@@ -54,24 +54,10 @@ FleetMesh::FleetMesh(asio::io_context& io, const FleetMeshConfig& config, FleetM
       map_(map),
       store_(store),
       replication_(config.replication),
-      runner_(io, config.runner, std::make_shared<mesh::PresharedKeys>(config.key), replication_,
-              [this](const mesh::MeshEvent& event) { on_event(event); }),
-      timer_(io) {}
-
-void FleetMesh::restore(RestoredFleet restored) {
-  for (auto& copy : restored.copies) {
-    if (!replication_.restore_copy(std::move(copy))) ++copies_refused_;
-  }
-  if (!replication_.restore_logs(MeshRunner::now(), restored.logs)) {
-    log_warning("fleet: more logs are stored than there is room for");
-  }
-  for (const replication::StoredLog& log : restored.logs) {
-    for (const auto& [number, item] : log.items) {
-      if (item && item->kind == replication::ItemKind::kStatus) {
-        hear(MemberId{log.id.origin}, item->bytes);
-      }
-    }
-  }
+      timer_(io) {
+  if (!config.runner) return;
+  runner_.emplace(io, *config.runner, std::make_shared<mesh::PresharedKeys>(config.key),
+                  replication_, [this](const mesh::MeshEvent& event) { on_event(event); });
 }
 
 void FleetMesh::start() {
@@ -79,14 +65,14 @@ void FleetMesh::start() {
     (void)replication_.open_log(config_.log_incarnation);
   }
   adopt_copies();
-  runner_.start();
+  if (runner_) runner_->start();
   turn_soon();
 }
 
 void FleetMesh::stop() {
   stopped_ = true;
   timer_.cancel();
-  runner_.stop();
+  if (runner_) runner_->stop();
 }
 
 void FleetMesh::on_opened(const OwnLayer& layer) {
@@ -95,8 +81,9 @@ void FleetMesh::on_opened(const OwnLayer& layer) {
   }
 }
 
-void FleetMesh::on_ticked() {
+void FleetMesh::on_ticked(std::vector<SelfLayerWrite> to_store) {
   const MeshTime now = MeshRunner::now();
+  for (SelfLayerWrite& write : to_store) self_backlog_.add(std::move(write));
   for (const auto& [number, own] : map_.own_layers()) {
     Told& told = told_[number];
     const Replica& layer = own.layer();
@@ -175,14 +162,14 @@ void FleetMesh::turn() {
   const MeshTime now = MeshRunner::now();
   if (now >= members_told_ + kMembersEvery) {
     members_told_ = now;
-    replication_.on_members(runner_.endpoint().members());
+    if (runner_) replication_.on_members(runner_->endpoint().members());
   }
-  commit();
+  commit(now);
   replication_.advance(now);
   run_commands(now);
   adopt_copies();
   take_items();
-  runner_.run();
+  if (runner_) runner_->run();
   if (drained_ && (now >= drain_until_ || is_drained())) {
     stop();
     return std::exchange(drained_, nullptr)();
@@ -190,26 +177,13 @@ void FleetMesh::turn() {
   wait();
 }
 
-void FleetMesh::commit() {
-  if (storing_ || !replication_.has_unstored()) return;
-  storing_ = true;
-  const replication::StoreBatch batch = replication_.take_batch();
-  store_.write(batch, [this, number = batch.number](bool stored) { on_committed(number, stored); });
-}
-
-void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
-  storing_ = false;
-  ++(stored ? batches_stored_ : batches_failed_);
-  if (stored) replication_.on_stored(MeshRunner::now(), batch);
-  turn_soon();
-}
-
 void FleetMesh::run_commands(MeshTime now) {
   while (const auto command = replication_.poll_command()) run(now, *command);
 }
 
 void FleetMesh::run(MeshTime now, const replication::Command& command) {
-  mesh::Endpoint& endpoint = runner_.endpoint();
+  if (!runner_) return;
+  mesh::Endpoint& endpoint = runner_->endpoint();
   std::visit(mesh::Visitor{
                  [&](const replication::SetTelemetry& set) {
                    if (!endpoint.set_telemetry(now, set.key, set.bytes)) ++telemetry_refused_;
@@ -253,18 +227,6 @@ void FleetMesh::adopt_copies() {
   }
 }
 
-// Those that came before the layer was known.
-void FleetMesh::take_poses(Replica& copy) {
-  for (const auto& held : replication_.log_book().logs()) {
-    for (const auto& [number, item] : held->log.items()) {
-      const auto pose = replication::read_layer_pose(item);
-      if (!pose || pose->layer != copy.id()) continue;
-      (void)(pose->correction ? copy.pose().update_correction(pose->pose)
-                              : copy.pose().update_origin(pose->pose));
-    }
-  }
-}
-
 void FleetMesh::drain(Duration at_most, std::function<void()> done) {
   drain_until_ = MeshRunner::now() + at_most;
   drained_ = std::move(done);
@@ -273,7 +235,7 @@ void FleetMesh::drain(Duration at_most, std::function<void()> done) {
 }
 
 bool FleetMesh::is_drained() const {
-  if (storing_ || replication_.has_unstored()) return false;
+  if (storing_ || has_unstored()) return false;
   const auto& layers = replication_.book().layers();
   for (const auto& [id, peer] : replication_.peers()) {
     if (!peer.up) continue;
@@ -287,6 +249,7 @@ bool FleetMesh::is_drained() const {
 void FleetMesh::wait() {
   const MeshTime now = MeshRunner::now();
   MeshTime until = std::min(replication_.next_deadline(), members_told_ + kMembersEvery);
+  if (!storing_ && has_unstored()) until = std::min(until, committed_ + kBetweenCommits);
   if (drained_) until = std::min({until, now + kLookWhileDraining, drain_until_});
   timer_.expires_at(std::max(until, now + Duration(1000)));
   timer_.async_wait([this](std::error_code cancelled) {

@@ -67,27 +67,34 @@ FleetReport FleetMesh::report() {
 void FleetMesh::fill_self(FleetReport& report) {
   node_of(report, config_.replication.self).is_self = true;
   report.nodes.front().role = config_.role;
-  const auto& names = config_.runner.sockets.interfaces;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto index = static_cast<InterfaceIndex>(i);
-    const mesh::MeshSockets& sockets = runner_.sockets();
-    report.interfaces.push_back(
-        {names[i].name, sockets.is_open(index), sockets.problem(index), sockets.counts(index)});
-  }
-  report.endpoint = runner_.endpoint().counts();
+  if (runner_) fill_interfaces(report);
   report.refused = replication_.refused();
   report.telemetry_refused = telemetry_refused_;
   report.copies_refused = copies_refused_;
   report.unknown_statuses = unknown_statuses_;
-  report.memory_bytes = replication_.memory_bytes() + runner_.endpoint().memory_bytes();
+  report.memory_bytes = replication_.memory_bytes();
+  if (runner_) report.memory_bytes += runner_->endpoint().memory_bytes();
   report.batches_stored = batches_stored_;
   report.batches_failed = batches_failed_;
   report.storing = storing_;
 }
 
+void FleetMesh::fill_interfaces(FleetReport& report) {
+  report.mesh_on = true;
+  const auto& names = config_.runner->sockets.interfaces;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto index = static_cast<InterfaceIndex>(i);
+    const mesh::MeshSockets& sockets = runner_->sockets();
+    report.interfaces.push_back(
+        {names[i].name, sockets.is_open(index), sockets.problem(index), sockets.counts(index)});
+  }
+  report.endpoint = runner_->endpoint().counts();
+}
+
 void FleetMesh::fill_neighbours(FleetReport& report) {
+  if (!runner_) return;
   const MeshTime now = MeshRunner::now();
-  for (const mesh::Member& member : runner_.endpoint().members()) {
+  for (const mesh::Member& member : runner_->endpoint().members()) {
     FleetNodeReport& node = node_of(report, member.id);
     node.neighbour = member;
     node.last_heard_s = std::chrono::duration<double>(now - member.last_heard).count();

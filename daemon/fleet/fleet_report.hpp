@@ -67,6 +67,7 @@ struct FleetInterfaceReport {
 };
 
 struct FleetReport {
+  bool mesh_on = false;
   std::vector<FleetNodeReport> nodes;  // this one first, then by name
   std::vector<FleetInterfaceReport> interfaces;
   mesh::EndpointCounts endpoint;

@@ -26,9 +26,11 @@ class Disk {
       layer.resolution = stored.resolution;
       layer.own = stored.own;
       layer.holdings = stored.holdings;
+      for (const KeyInterval& keys : stored.forgotten) {
+        layer.blocks.erase(layer.blocks.lower_bound(keys.first), layer.blocks.lower_bound(keys.end));
+      }
       for (const StoredBlock& block : stored.blocks) {
-        layer.blocks.erase(block.block);
-        if (block.changed_at > Revision{}) layer.blocks.emplace(block.block, block);
+        layer.blocks.insert_or_assign(block.block, block);
       }
     }
     for (const replication::StoredLog& stored : batch.logs) write(stored);

@@ -47,6 +47,7 @@ start_node() { # NAME NUMBER [SEED_NUMBER..]
     printf 'node: {name: %s, role: %s}\n' "$name" "$role"
     printf 'sockets:\n  ingest: {path: %s}\n  control: {path: %s}\n' \
       "$work/$name.ingest" "$work/$name.control"
+    printf 'store: {file: %s}\n' "$work/$name.db"
     printf 'layer: {tick_s: 0.2, flush_after_s: 1}\n'
     printf 'mesh:\n  key_file: %s\n  port: %s\n  group_port: %s\n  interfaces:\n' \
       "$work/fleet.key" "$((port_base + number))" "$((port_base + 3))"
