@@ -28,9 +28,9 @@ void log_start(const std::string& file, const StartReport& report) {
   }
   if (report.fresh) return log_info("store: " + file + " is new");
   if (report.recovered) log_info("store: the life before ended suddenly; its log was read");
-  log_info("store: " + std::to_string(report.layers) + " layers, " +
-           std::to_string(report.items) + " messages, " + std::to_string(report.blocks) +
-           " blocks in " + file + ", all checked in " + in_seconds(report.seconds));
+  log_info("store: " + std::to_string(report.layers) + " layers, " + std::to_string(report.items) +
+           " messages, " + std::to_string(report.blocks) + " blocks in " + file +
+           ", all checked in " + in_seconds(report.seconds));
 }
 
 void log_node(const StoredNode& node) {

@@ -71,8 +71,8 @@ tl::expected<std::unique_ptr<Warrend>, std::string> Warrend::start(
 }
 
 Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::path config_file,
-                 const FleetConfig& fleet, NodeStart node,
-                 std::optional<SocketFile> ingest_socket, SocketFile control_socket, Dependencies dependencies)
+                 const FleetConfig& fleet, NodeStart node, std::optional<SocketFile> ingest_socket,
+                 SocketFile control_socket, Dependencies dependencies)
     : io_(io),
       running_(asio::make_work_guard(io)),
       config_(config),

@@ -101,12 +101,11 @@ void ControlService::answer(const CellsQuestion& question, const Respond& respon
 }
 
 void ControlService::answer(const FleetStatusQuestion&, const Respond& respond) {
-  const bool asked = parts_.fleet.ask([this, respond, guard = asio::make_work_guard(parts_.io)](
-                                          const FleetParts& fleet) {
-    asio::post(parts_.io, [respond, frame = encode_fleet_status(fleet.mesh.report())] {
-      respond(frame);
-    });
-  });
+  const bool asked = parts_.fleet.ask(
+      [this, respond, guard = asio::make_work_guard(parts_.io)](const FleetParts& fleet) {
+        asio::post(parts_.io,
+                   [respond, frame = encode_fleet_status(fleet.mesh.report())] { respond(frame); });
+      });
   if (!asked) respond(encode_error(kTooBusy));
 }
 

@@ -101,7 +101,8 @@ class FleetMap {
   FleetMap(const FleetMap&) = delete;
   FleetMap& operator=(const FleetMap&) = delete;
 
-  // Own layers as a store had them, before anything else. The first tick must have all their blocks.
+  // Own layers as a store had them, before anything else. The first tick must have all their
+  // blocks.
   void restore(std::vector<StoredOwnLayer> layers);
   // One tick of all layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);

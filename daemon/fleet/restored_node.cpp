@@ -46,8 +46,7 @@ std::optional<StoreFailure> restore_layers(Store& store, const SelfMapConfig& co
     const LayerId& id = layer.head.id;
     if (layer.head.own) node.map.next_number = std::max(node.map.next_number, id.number + 1);
     if (const SelfLayerHead* const self = continued(layer, config, heads)) {
-      own.emplace(id.number,
-                  StoredOwnLayer{std::move(*replica), self->origin, self->T_fleet_map});
+      own.emplace(id.number, StoredOwnLayer{std::move(*replica), self->origin, self->T_fleet_map});
       continue;
     }
     node.layers_ended += layer.head.own ? 1 : 0;

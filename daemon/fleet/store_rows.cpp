@@ -88,8 +88,12 @@ void add_log(const replication::StoredLog& log, StoreBatch& rows) {
   rows.states[state_name(log.id)] = state_of(log);
   for (const auto& [number, item] : log.items) {
     if (item) {
-      rows.items.push_back({row_id(log.id, number), log.own, static_cast<std::uint16_t>(item->kind),
-                            item->to, {}, replication::encode(*item)});
+      rows.items.push_back({row_id(log.id, number),
+                            log.own,
+                            static_cast<std::uint16_t>(item->kind),
+                            item->to,
+                            {},
+                            replication::encode(*item)});
     } else {
       rows.erased_items.push_back(row_id(log.id, number));
     }

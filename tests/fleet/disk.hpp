@@ -27,7 +27,8 @@ class Disk {
       layer.own = stored.own;
       layer.holdings = stored.holdings;
       for (const KeyInterval& keys : stored.forgotten) {
-        layer.blocks.erase(layer.blocks.lower_bound(keys.first), layer.blocks.lower_bound(keys.end));
+        layer.blocks.erase(layer.blocks.lower_bound(keys.first),
+                           layer.blocks.lower_bound(keys.end));
       }
       for (const StoredBlock& block : stored.blocks) {
         layer.blocks.insert_or_assign(block.block, block);

@@ -70,7 +70,8 @@ void add_store(std::ostream& out, const control::Status& status) {
         << " messages of others dropped to make room";
   }
   out << "\n";
-  if (!store.failing().empty()) label(out, "") << "THE DISK TAKES NOTHING: " << store.failing() << "\n";
+  if (!store.failing().empty())
+    label(out, "") << "THE DISK TAKES NOTHING: " << store.failing() << "\n";
 }
 
 void add_layers(std::ostream& out, const control::Status& status) {
