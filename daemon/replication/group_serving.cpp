@@ -9,7 +9,6 @@
 namespace warren::replication {
 namespace {
 
-constexpr std::size_t kDiffOverhead = 3;  // kind and slot
 
 }  // namespace
 
