@@ -7,10 +7,6 @@
 #include "daemon/replication/encode_within.hpp"
 
 namespace warren::replication {
-namespace {
-
-
-}  // namespace
 
 // Those whose next run begins at the lowest key, and who hold about as much as the most advanced.
 std::optional<GroupServing::Group> GroupServing::group_of(InterfaceIndex interface,
