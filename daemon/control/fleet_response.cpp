@@ -11,16 +11,6 @@ namespace {
 
 using Counts = google::protobuf::RepeatedPtrField<control::Count>;
 
-constexpr std::array kUnusedNames{
-    "no_packet_of_ours", "own_echo",          "own_member",          "not_authentic",
-    "malformed",         "replayed",          "retired_boot",        "not_fresh",
-    "unknown_sender",    "member_table_full", "answer_rate_limited", "no_room_for_parcel"};
-static_assert(kUnusedNames.size() == static_cast<std::size_t>(mesh::Unused::kCount));
-constexpr std::array kClassNames{"urgent",         "control",        "telemetry",
-                                 "control_parcel", "message_parcel", "fresh",
-                                 "backlog",        "beacon",         "group"};
-static_assert(kClassNames.size() == static_cast<std::size_t>(mesh::SentClass::kCount));
-
 void add_count(const char* name, std::uint64_t count, Counts& counts) {
   auto* const entry = counts.Add();
   entry->set_name(name);
@@ -112,12 +102,12 @@ void fill(const FleetInterfaceReport& interface, control::MeshInterface& message
 }
 
 void fill(const mesh::EndpointCounts& counts, control::FleetStatus& status) {
-  for (std::size_t i = 0; i < kUnusedNames.size(); ++i) {
-    add_count(kUnusedNames[i], counts.unused[i], *status.mutable_unused());
+  for (std::size_t i = 0; i < mesh::kUnusedNames.size(); ++i) {
+    add_count(mesh::kUnusedNames[i], counts.unused[i], *status.mutable_unused());
   }
-  for (std::size_t i = 0; i < kClassNames.size(); ++i) {
+  for (std::size_t i = 0; i < mesh::kSentClassNames.size(); ++i) {
     auto* const sent = status.add_sent();
-    sent->set_name(kClassNames[i]);
+    sent->set_name(mesh::kSentClassNames[i]);
     sent->set_packets(counts.sent[i].packets);
     sent->set_bytes(counts.sent[i].bytes);
   }

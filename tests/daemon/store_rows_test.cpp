@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "daemon/replication/item_wire.hpp"
 #include "tests/core/layer/replica_steps.hpp"
 
 namespace warren {
