@@ -43,12 +43,14 @@ TEST_CASE("ten robots that map much in one cell of 1 Mbit/s") {
 
 TEST_CASE("one robot writes, nine copy") {
   Cell cell{.writers = 1, .loss = 0.05};
-  show("to each", cell);
+  const CellUse unicast = show("to each", cell);
   cell.broadcast = true;
-  show("to all at once", cell);
+  const CellUse broadcast = show("to all at once", cell);
+  CHECK(broadcast.bytes_per_voxel < unicast.bytes_per_voxel);
   cell.broadcast = false;
   cell.line = true;
-  show("a chain of ten", cell);
+  const CellUse chain = show("a chain of ten", cell);
+  CHECK(chain.copies < unicast.copies);
 }
 
 }  // namespace
