@@ -57,6 +57,7 @@ void fill(const FleetReport& report, const FleetLayerReport& layer, control::Fle
   message.set_latest(layer.latest.number);
   message.set_lag_revisions(layer.lag_revisions());
   if (const auto lag_s = layer.lag_s()) message.set_lag_s(*lag_s);
+  if (layer.lag_voxels) message.set_lag_voxels(*layer.lag_voxels);
   if (layer.up_to_us) message.set_up_to_us(*layer.up_to_us);
   if (layer.digest_equal) message.set_digest_equal(*layer.digest_equal);
   if (layer.provider) message.set_provider(name_of(report, *layer.provider));

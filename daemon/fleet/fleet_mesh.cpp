@@ -108,7 +108,7 @@ void FleetMesh::speak(MeshTime now) {
   if (!map_.own_layers().empty()) {
     const Replica& layer = map_.own_layers().rbegin()->second.layer();
     status.layer = {layer.id(), layer.holdings().at(0),
-                    replication::prefix_of(layer.digest().root())};
+                    replication::prefix_of(layer.digest().root()), layer.known_voxels()};
   }
   if (const auto position = map_.position_fleet()) status.position_fleet = position->cast<float>();
   const OwnWord::Tell tell = word_.judge(now, status, drained_ != nullptr);

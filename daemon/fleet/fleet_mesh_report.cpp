@@ -132,6 +132,8 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
   if (writer != nullptr && writer->status.layer && writer->status.layer->id == held.id) {
     report.up_to_us = writer->revisions.time_of(report.held_everywhere);
     report.latest_us = writer->revisions.time_of(report.latest);
+    const std::uint64_t known = writer->status.layer->known_voxels;
+    report.lag_voxels = known - std::min(known, replica.known_voxels());
   }
   if (const replication::Pull* const pull = replication_.pull_of(held.id)) {
     report.provider = pull->provider;
