@@ -99,17 +99,27 @@ void FleetMesh::on_ticked(std::vector<SelfLayerWrite> to_store) {
   }
   if (const auto position = map_.position_fleet()) replication_.on_position(now, *position);
   watch_conflicts();
-  speak(now);
+  // Else the word goes out with the revision, when that is stored.
+  if (storing_ || !has_unstored()) speak(now);
   turn_soon();
+}
+
+// The newest own layer as of the last revision that is stored: what a crash may make this node
+// write again must not be heard of.
+std::optional<NodeStatus::Layer> FleetMesh::stored_layer() {
+  if (map_.own_layers().empty()) return std::nullopt;
+  const Replica& layer = map_.own_layers().rbegin()->second.layer();
+  const HeldLayer* const held = replication_.book().find(layer.id());
+  if (held != nullptr && held->may_be_told()) {
+    stored_layer_ = {layer.id(), layer.holdings().at(0),
+                     replication::prefix_of(layer.digest().root()), layer.known_voxels()};
+  }
+  return stored_layer_;
 }
 
 void FleetMesh::speak(MeshTime now) {
   NodeStatus status{config_.name, config_.role, wall_clock_us(), std::nullopt, std::nullopt};
-  if (!map_.own_layers().empty()) {
-    const Replica& layer = map_.own_layers().rbegin()->second.layer();
-    status.layer = {layer.id(), layer.holdings().at(0),
-                    replication::prefix_of(layer.digest().root()), layer.known_voxels()};
-  }
+  status.layer = stored_layer();
   if (const auto position = map_.position_fleet()) status.position_fleet = position->cast<float>();
   const OwnWord::Tell tell = word_.judge(now, status, drained_ != nullptr);
   nodes_.note(config_.replication.self, status);

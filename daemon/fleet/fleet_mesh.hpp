@@ -84,6 +84,7 @@ class FleetMesh {
   void take_poses(Replica& copy);
   void hear(MemberId from, std::span<const std::uint8_t> status);
   void speak(MeshTime now);
+  std::optional<NodeStatus::Layer> stored_layer();
   void watch_conflicts();
   bool is_drained() const;
   void wait();
@@ -105,6 +106,7 @@ class FleetMesh {
   SelfBacklog self_backlog_;
   std::map<std::uint32_t, std::uint32_t> poses_stored_;  // revisions of own layers, by number
   MeshTime committed_ = MeshTime::min();
+  std::optional<NodeStatus::Layer> stored_layer_;  // as this node told of it last
   asio::steady_timer timer_;
   NodeBook nodes_;
   OwnWord word_;

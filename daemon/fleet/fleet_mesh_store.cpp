@@ -63,6 +63,7 @@ void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
   storing_ = false;
   ++(stored ? batches_stored_ : batches_failed_);
   if (stored) replication_.on_stored(MeshRunner::now(), batch);
+  if (stored) speak(MeshRunner::now());
   turn_soon();
 }
 
