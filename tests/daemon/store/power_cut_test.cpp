@@ -7,17 +7,14 @@
 #include "tests/daemon/store/opened_store.hpp"
 #include "tests/daemon/store/store_scenario.hpp"
 #include "tests/daemon/temporary_directory.hpp"
+#include "tests/support/under_sanitizer.hpp"
 
 using namespace warren;
 using namespace warren::test;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint32_t kSeeds = 20;  // the same code, at a tenth of the speed
-#else
-constexpr std::uint32_t kSeeds = 200;
-#endif
+constexpr std::uint32_t kSeeds = kUnderSanitizer ? 20 : 200;
 constexpr int kCutsPerSeed = 4;
 
 struct Life {
