@@ -93,8 +93,8 @@ std::vector<Row> rows_of(const control::FleetStatus& status) {
     Row row = node_cells(node);
     for (const auto& layer : node.layers()) {
       row.push_back(std::to_string(layer.layer().number()));
-      row.push_back(std::to_string(layer.held_everywhere()) +
-                    (layer.own() ? "" : "/" + std::to_string(layer.latest())));
+      row.push_back(std::to_string(layer.held_everywhere()));
+      if (!layer.own()) row.back().append("/").append(std::to_string(layer.latest()));
       row.push_back(lag_of(layer));
       row.push_back(state_of(node, layer));
       rows.push_back(std::exchange(row, Row(7)));
