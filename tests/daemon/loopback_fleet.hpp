@@ -36,7 +36,7 @@ class Loopback {
     config.layer.flush_after_s = 0.1;
     config.mesh.key_file = directory_ / "fleet.key";
     config.mesh.port = port_of(node);
-    config.mesh.group_port = port_of(7);
+    config.mesh.group_port = port_of(4 + node);  // nobody else's
     MeshInterfaceConfig interface;
     interface.name = "lo";
     for (const std::uint32_t seed : seeks) {

@@ -7,7 +7,7 @@
 declare -A pids=()      # of the daemons, by name
 declare -A namespaces=() # by name; none: this one, over the loopback interface
 link=                   # pid of warren-link
-port_base=$((10000 + $$ % 5000 * 4))
+port_base=$((10000 + $$ % 2500 * 8))
 
 clean_up_fleet() {
   for name in "${!pids[@]}"; do kill -KILL "${pids[$name]}" 2>/dev/null || true; done
@@ -40,7 +40,9 @@ interface_of() { # NAME NUMBER [SEED_NUMBER..]
 }
 
 start_node() { # NAME NUMBER [SEED_NUMBER..]
-  local name=$1 number=$2 role=robot
+  local name=$1 number=$2 role=robot group=$2
+  # On one interface all hear the group: there each node has one for itself, and seeks by address.
+  [ -z "${namespaces[$name]:-}" ] || group=0
   [ "$name" = base ] && role=base
   [ -f "$work/fleet.key" ] || "$bin/warrenctl" key new "$work/fleet.key" >/dev/null
   {
@@ -50,7 +52,7 @@ start_node() { # NAME NUMBER [SEED_NUMBER..]
     printf 'store: {file: %s}\n' "$work/$name.db"
     printf 'layer: {tick_s: 0.2, flush_after_s: 1}\n'
     printf 'mesh:\n  key_file: %s\n  port: %s\n  group_port: %s\n  interfaces:\n' \
-      "$work/fleet.key" "$((port_base + number))" "$((port_base + 3))"
+      "$work/fleet.key" "$((port_base + number))" "$((port_base + 4 + group))"
     interface_of "$@"
   } >"$work/$name.yaml"
   "$bin/warrend" --check "$work/$name.yaml" >/dev/null || fail "the config of $name has faults"
