@@ -12,6 +12,7 @@ class Killer:
         self._next = time.time() + 0.5 * every_s
         self._dead = []     # (when to start again, node)
         self.kills = []     # (time, node's name)
+        self.crashes = []   # of daemons that ended by themselves
         self.slowest_start_s = 0.0
 
     def turn(self, may_kill=True):
@@ -20,6 +21,10 @@ class Killer:
             self._dead.remove(entry)
             self.slowest_start_s = max(self.slowest_start_s, entry[1].start())
             self._observe(f"{entry[1].name} is back")
+        for node in self._scene.nodes:
+            if not node.is_running() and node not in (dead for _, dead in self._dead):
+                self.crashes.append(f"{node.name} ended by itself: {node.tail()}")
+                self._dead.append((now, node))
         if may_kill and now >= self._next:
             self._next += self._every_s
             self._kill(now)
@@ -34,6 +39,7 @@ class Killer:
         if relay is not None:
             relay.killed_at = now
         node.kill()
+        node.log.open("a").write("kill -9\n")
         self.kills.append((now, node.name))
         self._dead.append((now + self._random.uniform(0.2, 4.0), node))
         self._observe(f"kill -9 {node.name}")

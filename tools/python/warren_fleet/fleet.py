@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A base and robots: behind emulated radios, or over the loopback interface."""
+import os
 import pathlib
 
 from .link import Link
-from .node import GROUP_PORT, Node, make_key
+from .node import Node, make_key
 
-FIRST_PORT = 7718
+_PORTS = 64  # of a fleet on the loopback interface: its group's, then one for each node
 
 
 class Fleet:
@@ -27,12 +28,13 @@ class Fleet:
             node.join(key, namespace=namespace, group_packets=group_packets)
             node.start()
 
-    def start_on_loopback(self, first_port=FIRST_PORT):
-        """Everybody seeks the base by its address."""
+    def start_on_loopback(self):
+        """Everybody seeks the base by its address. Ports are of this process."""
         key = make_key(self.bin, self.work)
-        for number, node in enumerate(self.nodes):
-            node.join(key, port=first_port + number, seeds=[first_port] if number else [],
-                      group_port=GROUP_PORT)
+        group = 10000 + os.getpid() % 300 * _PORTS
+        for number, node in enumerate(self.nodes, start=1):
+            node.join(key, port=group + number, group_port=group,
+                      seeds=[group + 1] if number > 1 else [])
             node.start()
 
     def close(self):
