@@ -74,6 +74,15 @@ class Ledgers(unittest.TestCase):
             self.ledger.note_fleet(now, "base", fleet(5, digest_equal=False))
         self.assertEqual(self.lost(5), 1)
 
+    def test_coverage_at_the_base_is_what_the_writer_knew_at_its_revision(self):
+        for now in range(4):
+            answer = status(now + 1, "a")
+            answer.map.voxels_free = 10 * now + 9
+            self.ledger.note_status(float(now), "robot-0", answer)
+            self.ledger.note_fleet(now + 0.5, "base", fleet(2))
+        base, own = measures.coverage(self.ledger)
+        self.assertEqual((base[-1][1], own[-1][1]), (0.5, 1.0))
+
     def test_lag_is_told_by_what_the_writer_published_and_the_base_had(self):
         for now in range(10):
             self.ledger.note_status(float(now), "robot-0", status(now + 1, "a"))

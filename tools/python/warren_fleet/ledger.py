@@ -25,7 +25,8 @@ class Ledger:
         self.faults = {}           # each once
         self.first_told = {}       # layer -> [(time, revision)], rising
         self.held_at_base = []     # (time, layer, revision)
-        self.voxels = []           # (time, node, voxels of its self-map, of its copies)
+        self.answers = []          # (time, node)
+        self.mapped = {}           # layer -> [(time, revision, voxels of the self-map)], rising
         self.classes = {}          # node -> {class: bytes}, over its lives
         self._told = {}            # node -> [(time, layer, revision, digest)], not yet acknowledged
 
@@ -40,17 +41,16 @@ class Ledger:
 
     def note_status(self, now, node, status):
         own = status.publishing
-        copies = sum(each.voxels_free + each.voxels_occupied for each in status.loaded
-                     if not each.file)
-        mapped = status.map.voxels_free + status.map.voxels_occupied
+        voxels = status.map.voxels_free + status.map.voxels_occupied
         with self._lock:
-            self.voxels.append((now, node, mapped, copies))
+            self.answers.append((now, node))
             if not own.HasField("layer"):
                 return
             layer = key_of(own.layer)
             history = self.first_told.setdefault(layer, [])
             if not history or own.revision > history[-1][1]:
                 history.append((now, own.revision))
+                self.mapped.setdefault(layer, []).append((now, own.revision, voxels))
             told = self._told.setdefault(node, [])
             told.append((now, layer, own.revision, own.digest))
             if status.store.batches_queued == 0:

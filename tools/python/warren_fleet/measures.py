@@ -31,27 +31,35 @@ def first_lags(ledger, from_s, until_s):
     told = {}
     for now, layer, _ in ledger.held_at_base:
         told.setdefault(layer, now)
-    moments = [now for now, node, _, _ in ledger.voxels
+    moments = [now for now, node in ledger.answers
                if node == "base" and from_s <= now <= until_s]
     return [(now, layer, now - history[0][0])
             for layer, history in ledger.first_told.items()
             for now in moments if history[0][0] < now < told.get(layer, float("inf"))]
 
 
-def coverage(ledger, robots):
-    """(curve at the base, curve of the robots together): (time, share of the voxels that there are at
-    the end)."""
-    base = [(now, copies) for now, node, _, copies in ledger.voxels if node == "base"]
-    latest, own = {}, []
-    for now, node, mapped, _ in ledger.voxels:
-        if node in robots:
-            latest[node] = mapped
-            own.append((now, sum(latest.values())))
-    curves = []
-    for curve in (base, own):
-        end = max((count for _, count in curve), default=0)
-        curves.append([(now, count / end) for now, count in curve if end > 0])
-    return curves
+def coverage(ledger):
+    """(curve at the base, curve of the robots together): (time, share of what all robots have mapped
+    at the end). The base is taken to know what the writer knew at the revision that the base holds."""
+    end = sum(history[-1][2] for history in ledger.mapped.values())
+    own = sorted((now, layer, voxels) for layer, history in ledger.mapped.items()
+                 for now, _, voxels in history)
+    base = [(now, layer, _voxels_at(ledger.mapped.get(layer, []), held))
+            for now, layer, held in ledger.held_at_base]
+    return _shares(base, end), _shares(own, end)
+
+
+def _voxels_at(history, held):
+    place = bisect.bisect_right([revision for _, revision, _ in history], held)
+    return history[place - 1][2] if place > 0 else 0
+
+
+def _shares(changes, end):
+    latest, curve = {}, []
+    for now, layer, voxels in changes:
+        latest[layer] = voxels
+        curve.append((now, sum(latest.values()) / end))
+    return curve
 
 
 class Rates:
