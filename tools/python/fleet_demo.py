@@ -109,7 +109,7 @@ class Demo:
         for lag in missing:
             print(f"   NOT ALL: {lag}")
         if not missing:
-            print(f"== {took:.1f} s after the last scan everybody has the maps of all")
+            print(f"== {took:.1f} s after the last was published everybody has the maps of all")
         return not missing
 
     def save(self):
