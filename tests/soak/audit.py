@@ -74,11 +74,13 @@ def check_self_map(bin_dir, control_pb2, ingest_pb2, robot, relay, recording, wo
         if taken != len(relay.sent):
             findings.blame(f"of {len(relay.sent)} scans of {robot.name} {taken} were taken again")
         time.sleep(PUBLISHED_S)
-        lone.ask(layer_flush={})
+        if taken:
+            lone.ask(layer_flush={})
         digests = [node.status().publishing.digest for node in (robot, lone)]
         files = [work / f"{node.name}.ot" for node in (robot, lone)]
         for node, file in zip((robot, lone), files):
-            node.save(file)
+            if node.save(file) is None:
+                file.write_bytes(octree.EMPTY)
         different = octree.count_different(*map(octree.read, files))
         for file in files:
             file.unlink(missing_ok=True)

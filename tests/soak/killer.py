@@ -5,8 +5,11 @@ import time
 
 
 class Killer:
-    def __init__(self, scene, every_s, seed, observe):
+    """`forgetful`: a planted fault, every kill takes the store with it."""
+
+    def __init__(self, scene, every_s, seed, observe, forgetful=False):
         self._scene, self._every_s, self._observe = scene, every_s, observe
+        self._forgetful = forgetful
         self._random = random.Random(seed + 1)
         self._round = []
         self._next = time.time() + 0.5 * every_s
@@ -39,7 +42,8 @@ class Killer:
         if relay is not None:
             relay.killed_at = now
         node.kill()
-        node.log.open("a").write("kill -9\n")
+        if self._forgetful:
+            node.forget()
         self.kills.append((now, node.name))
         self._dead.append((now + self._random.uniform(0.2, 4.0), node))
         self._observe(f"kill -9 {node.name}")

@@ -3,6 +3,7 @@
 import struct
 
 DEPTH = 16
+EMPTY = b"# Octomap OcTree file\nid OcTree\nsize 0\nres 1\ndata\n"
 _NODE = struct.Struct("<fB")
 
 

@@ -136,7 +136,8 @@ class Octrees(unittest.TestCase):
                          7 * self.CHILD)
 
     def test_everything_differs_from_an_empty_map(self):
-        self.assertEqual(octree.count_different(tree(), tree((1.0, 1), (1.0, 0))), self.CHILD)
+        self.assertEqual(octree.count_different(octree.Tree(octree.EMPTY),
+                                                tree((1.0, 1), (1.0, 0))), self.CHILD)
 
 
 class Radios(unittest.TestCase):

@@ -82,6 +82,11 @@ class Node:
         self._process.send_signal(signal.SIGKILL)
         self._process.wait()
 
+    def forget(self):
+        """Loses its disk. While it is dead."""
+        for file in self.work.glob(f"{self.name}.db*"):
+            file.unlink()
+
     def stop(self, wait_s=30.0):
         """Its exit status."""
         self._control.close()
