@@ -7,25 +7,18 @@
 
 #include <asio/post.hpp>
 
+#include "daemon/fleet/wall_clock.hpp"
 #include "daemon/log.hpp"
-#include "daemon/replication/holdings_walk.hpp"
 #include "transport/visitor.hpp"
 
 namespace warren {
 namespace {
 
 using mesh::MeshRunner;
-using replication::HeldLayer;
 
 constexpr std::uint16_t kStatusKey = 1;  // of telemetry; replication's begin at kLayerKeys
 constexpr Duration kMembersEvery = std::chrono::seconds(1);
 constexpr Duration kLookWhileDraining = std::chrono::milliseconds(50);
-constexpr std::size_t kPacketBytes = 1200;
-
-std::int64_t wall_clock_us() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
 
 replication::Item item_of(const NodeStatus& status) {
   constexpr std::string_view kName = "status";
@@ -34,15 +27,6 @@ replication::Item item_of(const NodeStatus& status) {
   item.name.assign(kName.begin(), kName.end());
   item.bytes = encode(status);
   return item;
-}
-
-// Whether this member lacks something of the layer that it wants, or has not acknowledged it.
-bool lacks(const replication::Subscription& subscription, const HeldLayer& layer) {
-  if (!subscription.wanted() || !layer.may_be_told()) return false;
-  const Replica& replica = layer.replica();
-  if (subscription.under_way() > 0 || subscription.next_fresh(replica, kPacketBytes)) return true;
-  return subscription.wants_everything() &&
-         replication::holds_more(replica.holdings(), subscription.believed());
 }
 
 }  // namespace
@@ -56,7 +40,9 @@ FleetMesh::FleetMesh(asio::io_context& io, const FleetMeshConfig& config, FleetM
       replication_(config.replication),
       runner_(io, config.runner, std::make_shared<mesh::PresharedKeys>(config.key), replication_,
               [this](const mesh::MeshEvent& event) { on_event(event); }),
-      timer_(io) {}
+      timer_(io),
+      desk_({config.replication.self, config.role, config.runner.endpoint.boot.bits, replication_,
+             map, nodes_, [this] { turn_soon(); }}) {}
 
 void FleetMesh::restore(RestoredFleet restored) {
   for (auto& copy : restored.copies) {
@@ -78,6 +64,7 @@ void FleetMesh::start() {
   if (replication_.log_book().own() == nullptr) {
     (void)replication_.open_log(config_.log_incarnation);
   }
+  desk_.start();
   adopt_copies();
   runner_.start();
   turn_soon();
@@ -85,6 +72,7 @@ void FleetMesh::start() {
 
 void FleetMesh::stop() {
   stopped_ = true;
+  desk_.stop();
   timer_.cancel();
   runner_.stop();
 }
@@ -111,6 +99,7 @@ void FleetMesh::on_ticked() {
     if (said) told.pose = pose.revision;
   }
   if (const auto position = map_.position_fleet()) replication_.on_position(now, *position);
+  desk_.on_ticked(now, wall_clock_us(), drained_ != nullptr);
   watch_conflicts();
   speak(now);
   turn_soon();
@@ -182,6 +171,7 @@ void FleetMesh::turn() {
   run_commands(now);
   adopt_copies();
   take_items();
+  desk_.settle();
   runner_.run();
   if (drained_ && (now >= drain_until_ || is_drained())) {
     stop();
@@ -201,6 +191,7 @@ void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
   storing_ = false;
   ++(stored ? batches_stored_ : batches_failed_);
   if (stored) replication_.on_stored(MeshRunner::now(), batch);
+  desk_.on_committed(MeshRunner::now(), stored);
   turn_soon();
 }
 
@@ -235,6 +226,7 @@ void FleetMesh::take_items() {
     if (arrived->item.kind == replication::ItemKind::kStatus) {
       hear(MemberId{arrived->log.origin}, arrived->item.bytes);
     }
+    desk_.on_item(*arrived);
   }
   if (poses) map_.place_others();
 }
@@ -258,30 +250,10 @@ void FleetMesh::take_poses(Replica& copy) {
   for (const auto& held : replication_.log_book().logs()) {
     for (const auto& [number, item] : held->log.items()) {
       const auto pose = replication::read_layer_pose(item);
-      if (!pose || pose->layer != copy.id()) continue;
-      (void)(pose->correction ? copy.pose().update_correction(pose->pose)
-                              : copy.pose().update_origin(pose->pose));
+      if (!pose || pose->correction || pose->layer != copy.id()) continue;
+      (void)copy.pose().update_origin(pose->pose);
     }
   }
-}
-
-void FleetMesh::drain(Duration at_most, std::function<void()> done) {
-  drain_until_ = MeshRunner::now() + at_most;
-  drained_ = std::move(done);
-  speak(MeshRunner::now());
-  turn_soon();
-}
-
-bool FleetMesh::is_drained() const {
-  if (storing_ || replication_.has_unstored()) return false;
-  const auto& layers = replication_.book().layers();
-  for (const auto& [id, peer] : replication_.peers()) {
-    if (!peer.up) continue;
-    for (const auto& [slot, subscription] : peer.subscriptions) {
-      if (slot < layers.size() && lacks(subscription, *layers[slot])) return false;
-    }
-  }
-  return true;
 }
 
 void FleetMesh::wait() {
