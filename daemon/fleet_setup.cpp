@@ -66,12 +66,13 @@ tl::expected<FleetConfig, std::string> fleet_config_of(const Config& config) {
                config.layer.resolved(), config.layer.rest_after_ticks()};
   fleet.tick = time_of<std::chrono::nanoseconds>(config.layer.tick_s);
   fleet.shutdown = time_of<Duration>(config.mesh.shutdown_s);
-  if (!config.mesh.is_on()) return fleet;
-  const auto key = read_key_file(config.mesh.key_file);
-  if (!key) return tl::unexpected(key.error());
-  FleetMeshConfig& mesh = fleet.mesh.emplace();
-  mesh.runner = runner_config(config.mesh, MemberId{origin});
-  mesh.key = *key;
+  FleetMeshConfig& mesh = fleet.mesh;
+  if (config.mesh.is_on()) {
+    const auto key = read_key_file(config.mesh.key_file);
+    if (!key) return tl::unexpected(key.error());
+    mesh.runner = runner_config(config.mesh, MemberId{origin});
+    mesh.key = *key;
+  }
   mesh.replication.self = MemberId{origin};
   mesh.replication.share = share_policy(config.share);
   for (const MeshInterfaceConfig& interface : config.mesh.interfaces) {

@@ -10,6 +10,7 @@
 #include "daemon/fleet_setup.hpp"
 #include "daemon/ingest/header.hpp"
 #include "daemon/log.hpp"
+#include "daemon/node_start.hpp"
 
 namespace warren {
 namespace {
@@ -21,7 +22,8 @@ SensorFilters filters_of(const Config& config) {
 }
 
 MappingConfig mapping_config(const Config& config) {
-  return {config.self_map(), config.terrain.resolved(), config.node.fleet_T_map.pose()};
+  return {config.self_map(), config.terrain.resolved(), config.node.fleet_T_map.pose(),
+          config.store.enabled};
 }
 
 // A base takes no scans.
@@ -53,8 +55,11 @@ tl::expected<std::unique_ptr<Warrend>, std::string> Warrend::start(
   if (!ingest) return tl::unexpected(ingest.error());
   auto control = SocketFile::listen(config.sockets.control);
   if (!control) return tl::unexpected(control.error());
-  std::unique_ptr<Warrend> warrend(new Warrend(io, config, config_file, *fleet, std::move(*ingest),
-                                               std::move(*control), std::move(dependencies)));
+  auto node = start_node(config);
+  if (!node) return tl::unexpected(node.error());
+  std::unique_ptr<Warrend> warrend(new Warrend(io, config, config_file, *fleet, std::move(*node),
+                                               std::move(*ingest), std::move(*control),
+                                               std::move(dependencies)));
   warrend->ingest_.start();
   warrend->control_.start();
   warrend->fleet_.start();
@@ -66,7 +71,7 @@ tl::expected<std::unique_ptr<Warrend>, std::string> Warrend::start(
 }
 
 Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::path config_file,
-                 const FleetConfig& fleet, std::optional<SocketFile> ingest_socket,
+                 const FleetConfig& fleet, NodeStart node, std::optional<SocketFile> ingest_socket,
                  SocketFile control_socket, Dependencies dependencies)
     : io_(io),
       running_(asio::make_work_guard(io)),
@@ -75,9 +80,9 @@ Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::pa
       dependencies_(std::move(dependencies)),
       ingest_socket_(std::move(ingest_socket)),
       control_socket_(std::move(control_socket)),
-      fleet_(io, mapper_, fleet),
+      fleet_(io, mapper_, fleet, std::move(node.fleet)),
       mapper_(mapping_config(config), filters_of(config), config.ingest.queue_scans,
-              mapper_dependencies()),
+              mapper_dependencies(), std::move(node.map)),
       ingest_(io,
               ingest_socket_ ? std::optional(ingest_socket_->release_descriptor()) : std::nullopt,
               config, mapper_),

@@ -17,6 +17,7 @@
 #include "daemon/fleet/fleet.hpp"
 #include "daemon/ingest/server.hpp"
 #include "daemon/mapper/mapper.hpp"
+#include "daemon/node_start.hpp"
 #include "daemon/socket_file.hpp"
 #include "daemon/watchdog.hpp"
 
@@ -49,7 +50,7 @@ class Warrend {
 
  private:
   Warrend(asio::io_context& io, const Config& config, std::filesystem::path config_file,
-          const FleetConfig& fleet, std::optional<SocketFile> ingest_socket,
+          const FleetConfig& fleet, NodeStart node, std::optional<SocketFile> ingest_socket,
           SocketFile control_socket, Dependencies dependencies);
 
   Mapper::Dependencies mapper_dependencies();

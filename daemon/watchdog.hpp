@@ -15,7 +15,7 @@ namespace warren {
 
 // Feeds the service manager's watchdog only while all threads make progress: its timer runs on the
 // io thread, and between two of its ticks the mapping thread must have answered or taken a scan,
-// and the fleet thread have answered.
+// and the fleet thread and that of the store, if there is one, have answered.
 class Watchdog {
  public:
   Watchdog(asio::io_context& io, Mapper& mapper, Fleet& fleet, std::function<void()> feed)
@@ -36,11 +36,13 @@ class Watchdog {
   struct Beats {
     std::uint64_t mapper = 0;
     std::uint64_t fleet = 0;
+    std::uint64_t store = 0;
   };
 
   void tick() {
-    const Beats beats{mapper_.beats(), fleet_.beats()};
-    if (beats.mapper != last_.mapper && beats.fleet != last_.fleet) feed_();
+    const Beats beats{mapper_.beats(), fleet_.beats(), fleet_.store_beats()};
+    const bool store_lives = !fleet_.has_store() || beats.store != last_.store;
+    if (beats.mapper != last_.mapper && beats.fleet != last_.fleet && store_lives) feed_();
     last_ = beats;
     mapper_.request_beat();
     fleet_.request_beat();

@@ -142,6 +142,14 @@ struct ShareSettings {
   friend bool operator==(const ShareSettings&, const ShareSettings&) = default;
 };
 
+// What survives a restart.
+struct StoreSettings {
+  bool enabled = true;
+  std::filesystem::path file{"/var/lib/warren/warren.db"};
+  std::uint32_t disk_mb_max = 4096;
+  friend bool operator==(const StoreSettings&, const StoreSettings&) = default;
+};
+
 // Where the map frame lies in the fleet's at the start: surveyed, level.
 struct SurveyedPose {
   double x_m = 0.0;
@@ -176,6 +184,7 @@ struct Config {
   std::vector<SensorConfig> sensors{SensorConfig{}};
   MeshSettings mesh;
   ShareSettings share;
+  StoreSettings store;
   LogConfig log;
 
   // The defaults of a base: it has no sensors.

@@ -28,6 +28,8 @@ constexpr Limits kSpeaksForFree{0.001, 0.499};
 constexpr Limits kSpeaksForOccupied{0.501, 0.999};
 constexpr Limits kSurveyed{-1e6, 1e6};
 constexpr Limits kPorts{0, 65535};
+// Below, there is no room for the write-ahead log.
+constexpr Limits kDiskMb{256, 1e6};
 
 constexpr std::array kRootKeys{
     RootKey{"node.name", "Name of this node, in logs and status.", Takes::kRestart,
@@ -207,6 +209,16 @@ constexpr std::array kRootKeys{
             Takes::kRestart,
             [](Config& c) -> Slot { return &c.share.radius_m; },
             {1.0, 10000.0}},
+    RootKey{"store.enabled",
+            "Keep map, copies and messages in a file, and go on with them after a restart. false: "
+            "a restart begins anew.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.store.enabled; }},
+    RootKey{"store.file", "The file, in a folder that exists; others beside it begin as its name.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.store.file; }},
+    RootKey{"store.disk_mb_max",
+            "Most that the store takes on the disk, megabytes of 10^6 bytes. Near it, messages and "
+            "maps of others go; this node's own never do.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.store.disk_mb_max; }, kDiskMb},
     RootKey{"log.level",
             "The least important lines to log.",
             Takes::kReload,

@@ -11,16 +11,6 @@ namespace {
 
 using Counts = google::protobuf::RepeatedPtrField<control::Count>;
 
-constexpr std::array kUnusedNames{
-    "no_packet_of_ours", "own_echo",          "own_member",          "not_authentic",
-    "malformed",         "replayed",          "retired_boot",        "not_fresh",
-    "unknown_sender",    "member_table_full", "answer_rate_limited", "no_room_for_parcel"};
-static_assert(kUnusedNames.size() == static_cast<std::size_t>(mesh::Unused::kCount));
-constexpr std::array kClassNames{"urgent",         "control",        "telemetry",
-                                 "control_parcel", "message_parcel", "fresh",
-                                 "backlog",        "beacon",         "group"};
-static_assert(kClassNames.size() == static_cast<std::size_t>(mesh::SentClass::kCount));
-
 void add_count(const char* name, std::uint64_t count, Counts& counts) {
   auto* const entry = counts.Add();
   entry->set_name(name);
@@ -67,6 +57,7 @@ void fill(const FleetReport& report, const FleetLayerReport& layer, control::Fle
   message.set_latest(layer.latest.number);
   message.set_lag_revisions(layer.lag_revisions());
   if (const auto lag_s = layer.lag_s()) message.set_lag_s(*lag_s);
+  if (layer.lag_voxels) message.set_lag_voxels(*layer.lag_voxels);
   if (layer.up_to_us) message.set_up_to_us(*layer.up_to_us);
   if (layer.digest_equal) message.set_digest_equal(*layer.digest_equal);
   if (layer.provider) message.set_provider(name_of(report, *layer.provider));
@@ -113,12 +104,12 @@ void fill(const FleetInterfaceReport& interface, control::MeshInterface& message
 }
 
 void fill(const mesh::EndpointCounts& counts, control::FleetStatus& status) {
-  for (std::size_t i = 0; i < kUnusedNames.size(); ++i) {
-    add_count(kUnusedNames[i], counts.unused[i], *status.mutable_unused());
+  for (std::size_t i = 0; i < mesh::kUnusedNames.size(); ++i) {
+    add_count(mesh::kUnusedNames[i], counts.unused[i], *status.mutable_unused());
   }
-  for (std::size_t i = 0; i < kClassNames.size(); ++i) {
+  for (std::size_t i = 0; i < mesh::kSentClassNames.size(); ++i) {
     auto* const sent = status.add_sent();
-    sent->set_name(kClassNames[i]);
+    sent->set_name(mesh::kSentClassNames[i]);
     sent->set_packets(counts.sent[i].packets);
     sent->set_bytes(counts.sent[i].bytes);
   }
@@ -148,18 +139,17 @@ void fill_refused(const FleetReport& report, Counts& refused) {
 
 }  // namespace
 
-std::string encode_fleet_status(const std::optional<FleetReport>& report) {
+std::string encode_fleet_status(const FleetReport& report) {
   control::Response response;
   auto& status = *response.mutable_fleet_status();
-  status.set_mesh_on(report.has_value());
-  if (!report) return framed(response.SerializeAsString());
-  for (const FleetNodeReport& node : report->nodes) fill(*report, node, *status.add_nodes());
-  for (const auto& interface : report->interfaces) fill(interface, *status.add_interfaces());
-  fill(report->endpoint, status);
-  fill_refused(*report, *status.mutable_refused());
-  status.set_memory_bytes(report->memory_bytes);
-  status.set_batches_stored(report->batches_stored);
-  status.set_batches_failed(report->batches_failed);
+  status.set_mesh_on(report.mesh_on);
+  for (const FleetNodeReport& node : report.nodes) fill(report, node, *status.add_nodes());
+  for (const auto& interface : report.interfaces) fill(interface, *status.add_interfaces());
+  fill(report.endpoint, status);
+  fill_refused(report, *status.mutable_refused());
+  status.set_memory_bytes(report.memory_bytes);
+  status.set_batches_stored(report.batches_stored);
+  status.set_batches_failed(report.batches_failed);
   return framed(response.SerializeAsString());
 }
 

@@ -12,6 +12,7 @@
 #include "daemon/fleet/fleet_report.hpp"
 #include "daemon/ingest/server_status.hpp"
 #include "daemon/mapper/mapper.hpp"
+#include "daemon/store/store_worker.hpp"
 
 namespace warren {
 
@@ -23,6 +24,7 @@ struct StatusReport {
   Mapper::QueueLoad queue;
   MapperStatus mapper;
   PublishingReport publishing;
+  std::optional<StoreStatus> store;  // none: the node keeps nothing
 };
 
 // Responses as they go over the wire, length included.
@@ -37,8 +39,7 @@ std::string encode_map_loaded(const LoadedLayer& layer);
 std::string encode_loaded_layer(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_cells(const CellsAnswer& answer);
-// None: the mesh is off.
-std::string encode_fleet_status(const std::optional<FleetReport>& report);
+std::string encode_fleet_status(const FleetReport& report);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);
 

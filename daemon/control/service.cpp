@@ -81,7 +81,7 @@ void ControlService::answer(const FlushOrder&, const Respond& respond) {
   const bool asked = parts_.fleet.ask([this, respond, guard = asio::make_work_guard(parts_.io)](
                                           const FleetParts& fleet) {
     const auto flushed = fleet.map.flush();
-    if (fleet.mesh != nullptr) fleet.mesh->on_ticked();
+    fleet.mesh.on_ticked({});
     asio::post(parts_.io, [respond, frame = flushed ? encode_layer_flushed(*flushed)
                                                     : encode_error(kNoMapYet)] { respond(frame); });
   });
@@ -101,11 +101,11 @@ void ControlService::answer(const CellsQuestion& question, const Respond& respon
 }
 
 void ControlService::answer(const FleetStatusQuestion&, const Respond& respond) {
-  const bool asked = parts_.fleet.ask([this, respond, guard = asio::make_work_guard(parts_.io)](
-                                          const FleetParts& fleet) {
-    const auto report = fleet.mesh == nullptr ? std::nullopt : std::optional(fleet.mesh->report());
-    asio::post(parts_.io, [respond, frame = encode_fleet_status(report)] { respond(frame); });
-  });
+  const bool asked = parts_.fleet.ask(
+      [this, respond, guard = asio::make_work_guard(parts_.io)](const FleetParts& fleet) {
+        asio::post(parts_.io,
+                   [respond, frame = encode_fleet_status(fleet.mesh.report())] { respond(frame); });
+      });
   if (!asked) respond(encode_error(kTooBusy));
 }
 
@@ -144,6 +144,7 @@ StatusReport ControlService::status(MapperStatus mapper, PublishingReport publis
   report.mapper = std::move(mapper);
   report.publishing = std::move(publishing);
   report.publishing.ticks_late = parts_.fleet.ticks_late();
+  report.store = parts_.fleet.store_status();
   return report;
 }
 

@@ -118,8 +118,7 @@ void ControlService::save_layer(const SaveOrder& order, const Respond& done) {
 void ControlService::save_copy(const SaveOrder& order, const Respond& done) {
   const bool asked = parts_.fleet.ask([this, order, done, guard = asio::make_work_guard(parts_.io)](
                                           const FleetParts& fleet) {
-    const Replica* const copy =
-        fleet.mesh == nullptr ? nullptr : fleet.mesh->newest_copy_of(order.of);
+    const Replica* const copy = fleet.mesh.newest_copy_of(order.of);
     std::optional<EncodedLayer> layer;
     if (copy != nullptr) layer = FleetMap::encoded(*copy);
     asio::post(files_, [this, order, done, guard, layer = std::move(layer)] {

@@ -25,7 +25,7 @@ struct LayerPair {
 
 tl::expected<LayerPair, std::string> layers_of(const FleetParts& fleet,
                                                const AlignEstimateQuestion& question) {
-  const FleetDesk& desk = fleet.mesh->desk();
+  const FleetDesk& desk = fleet.mesh.desk();
   const auto layer_of = [&](const std::string& name) -> tl::expected<const Replica*, std::string> {
     const auto node = desk.find_node(name);
     if (!node) return tl::unexpected(node.error());
@@ -70,7 +70,7 @@ void ControlService::ask_mesh(std::function<void(const FleetParts&, const Respon
     asio::post(parts_.io, [respond, frame = std::move(frame)] { respond(frame); });
   };
   const bool asked = parts_.fleet.ask([act = std::move(act), tell](const FleetParts& fleet) {
-    fleet.mesh == nullptr ? tell(encode_error(kMeshOff)) : act(fleet, tell);
+    fleet.mesh.is_on() ? act(fleet, tell) : tell(encode_error(kMeshOff));
   });
   if (!asked) respond(encode_error(kTooBusy));
 }
@@ -78,7 +78,7 @@ void ControlService::ask_mesh(std::function<void(const FleetParts&, const Respon
 void ControlService::answer(const MessageSendOrder& order, const Respond& respond) {
   ask_mesh(
       [order](const FleetParts& fleet, const Respond& tell) {
-        fleet.mesh->desk().send(
+        fleet.mesh.desk().send(
             mesh::MeshRunner::now(), order, wall_clock_us(), [tell](const auto& number) {
               tell(number ? encode_message_accepted(*number) : encode_error(number.error()));
             });
@@ -89,11 +89,11 @@ void ControlService::answer(const MessageSendOrder& order, const Respond& respon
 void ControlService::answer(const MessageWatchQuestion& question, const Respond& respond) {
   ask_mesh(
       [question](const FleetParts& fleet, const Respond& tell) {
-        FleetDesk& desk = fleet.mesh->desk();
+        FleetDesk& desk = fleet.mesh.desk();
         InboxReport report;
         report.excerpt = desk.read(mesh::MeshRunner::now(), question);
         for (const InboxMessage& message : report.excerpt.messages) {
-          report.senders.push_back(fleet.mesh->name_of(message.from));
+          report.senders.push_back(fleet.mesh.name_of(message.from));
         }
         report.dropped = desk.messages().dropped();
         tell(encode_messages(report));
@@ -104,7 +104,7 @@ void ControlService::answer(const MessageWatchQuestion& question, const Respond&
 void ControlService::answer(const FleetOrder& order, const Respond& respond) {
   ask_mesh(
       [order](const FleetParts& fleet, const Respond& tell) {
-        fleet.mesh->desk().order(mesh::MeshRunner::now(), order, [tell](const auto& layers) {
+        fleet.mesh.desk().order(mesh::MeshRunner::now(), order, [tell](const auto& layers) {
           tell(layers ? encode_fleet_ordered(*layers) : encode_error(layers.error()));
         });
       },
@@ -114,7 +114,7 @@ void ControlService::answer(const FleetOrder& order, const Respond& respond) {
 void ControlService::answer(const TrajectoryQuestion& question, const Respond& respond) {
   ask_mesh(
       [question](const FleetParts& fleet, const Respond& tell) {
-        const auto path = fleet.mesh->desk().path(question);
+        const auto path = fleet.mesh.desk().path(question);
         tell(path ? encode_trajectory(question.node, *path) : encode_error(path.error()));
       },
       respond);

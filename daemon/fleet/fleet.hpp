@@ -17,7 +17,8 @@
 
 #include "daemon/fleet/fleet_map.hpp"
 #include "daemon/fleet/fleet_mesh.hpp"
-#include "daemon/fleet/store_port.hpp"
+#include "daemon/fleet/no_store.hpp"
+#include "daemon/fleet/node_store.hpp"
 #include "daemon/mapper/mapper.hpp"
 
 namespace warren {
@@ -25,14 +26,21 @@ namespace warren {
 struct FleetConfig {
   FleetMapConfig map;
   std::chrono::nanoseconds tick = std::chrono::seconds(1);
-  std::optional<FleetMeshConfig> mesh;  // none: this node keeps to itself
+  FleetMeshConfig mesh;
   Duration shutdown = std::chrono::seconds(3);
 };
 
-// What the fleet thread has: the layers, and the mesh if there is one.
+// What the fleet thread has.
 struct FleetParts {
   FleetMap& map;
-  FleetMesh* mesh = nullptr;
+  FleetMesh& mesh;
+};
+
+// A node's store, and what was in it.
+struct FleetStart {
+  std::optional<Store> store;  // none: all is forgotten at the end
+  std::vector<StoredOwnLayer> own;
+  StoredFleet fleet;
 };
 
 // The fleet thread: it alone touches the layers, and speaks to the mesh. At each tick the mapping
@@ -45,7 +53,7 @@ class Fleet {
   // Questions that may wait; one more is refused.
   static constexpr std::size_t kMaxQuestions = 1024;
 
-  Fleet(asio::io_context& io, Mapper& mapper, const FleetConfig& config);
+  Fleet(asio::io_context& io, Mapper& mapper, const FleetConfig& config, FleetStart start);
   // Does what is in hand first.
   ~Fleet();
   Fleet(const Fleet&) = delete;
@@ -60,15 +68,19 @@ class Fleet {
   [[nodiscard]] bool ask(std::function<void(const FleetParts&)> question);
   std::uint64_t ticks_late() const { return ticks_late_; }
 
-  // Liveness: ask for a beat, see later whether the count has moved.
+  bool has_store() const { return store_.has_value(); }
+  // Nothing without a store. Any thread.
+  std::optional<StoreStatus> store_status() const;
+
+  // Liveness: ask for a beat, see later whether the count has moved. The store's thread counts too.
   void request_beat();
   std::uint64_t beats() const { return beats_.load(); }
+  std::uint64_t store_beats() const;
 
  private:
   void wait_for_tick();
   void begin_tick();
-  void tick(const std::vector<LayerChanges>& changes);
-  void open_mesh(const FleetMeshConfig& config);
+  void tick(std::vector<LayerChanges> changes);
 
   Mapper& mapper_;
   asio::steady_timer timer_;
@@ -84,8 +96,9 @@ class Fleet {
   asio::executor_work_guard<asio::io_context::executor_type> running_;
   // Of the fleet thread.
   FleetMap map_;
-  std::unique_ptr<StorePort> store_;
-  std::unique_ptr<FleetMesh> mesh_;
+  NoStore no_store_;
+  std::optional<NodeStore> store_;
+  FleetMesh mesh_;
   std::thread thread_;
 };
 

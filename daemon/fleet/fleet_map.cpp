@@ -48,18 +48,30 @@ std::optional<FlushReport> FleetMap::flush() {
   return FlushReport{layer->id(), layer->holdings().at(0), blocks};
 }
 
+template <typename... Args>
+OwnLayer& FleetMap::open(std::uint32_t number, const Eigen::Vector3d& origin_map, Args&&... args) {
+  merge_origin_map_ = origin_map;
+  merge_.open_self_layer(number, Eigen::Isometry3d::Identity());
+  OwnLayer& opened = own_.try_emplace(number, std::forward<Args>(args)...).first->second;
+  opened_(opened);
+  return opened;
+}
+
 OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
   const auto found = own_.find(changes.number);
   if (found != own_.end()) return found->second;
   const LayerId id{config_.origin, changes.number, draw_incarnation_()};
   const Eigen::Vector3d origin_map = changes.origin.position_map(config_.resolution.metres());
-  merge_origin_map_ = origin_map;
-  merge_.open_self_layer(changes.number, Eigen::Isometry3d::Identity());
-  OwnLayer& opened = own_.try_emplace(changes.number, id, config_.resolution, origin_map,
-                                      config_.publishing, config_.rest_after_ticks)
-                         .first->second;
-  opened_(opened);
-  return opened;
+  return open(changes.number, origin_map, id, config_.resolution, origin_map, config_.publishing,
+              config_.rest_after_ticks);
+}
+
+void FleetMap::restore(std::vector<StoredOwnLayer> layers) {
+  for (StoredOwnLayer& layer : layers) {
+    const std::uint32_t number = layer.layer.id().number;
+    const Eigen::Vector3d origin_map = layer.origin.position_map(config_.resolution.metres());
+    open(number, origin_map, std::move(layer), config_.publishing, config_.rest_after_ticks);
+  }
 }
 
 bool FleetMap::correct_own(const LayerId& layer, const WrittenPose& correction) {

@@ -101,6 +101,9 @@ class FleetMap {
   FleetMap(const FleetMap&) = delete;
   FleetMap& operator=(const FleetMap&) = delete;
 
+  // Own layers as a store had them, before anything else. The first tick must have all their
+  // blocks.
+  void restore(std::vector<StoredOwnLayer> layers);
   // One tick of all layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back. Nothing before the first scan.
@@ -142,6 +145,8 @@ class FleetMap {
 
  private:
   OwnLayer& own_layer(const LayerChanges& changes);
+  template <typename... Args>
+  OwnLayer& open(std::uint32_t number, const Eigen::Vector3d& origin_map, Args&&... args);
   LayerMemory memory() const;
   const Replica* current() const;
   Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;

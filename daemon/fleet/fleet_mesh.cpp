@@ -15,6 +15,7 @@ namespace warren {
 namespace {
 
 using mesh::MeshRunner;
+using replication::HeldLayer;
 
 constexpr std::uint16_t kStatusKey = 1;  // of telemetry; replication's begin at kLayerKeys
 constexpr Duration kMembersEvery = std::chrono::seconds(1);
@@ -38,26 +39,12 @@ FleetMesh::FleetMesh(asio::io_context& io, const FleetMeshConfig& config, FleetM
       map_(map),
       store_(store),
       replication_(config.replication),
-      runner_(io, config.runner, std::make_shared<mesh::PresharedKeys>(config.key), replication_,
-              [this](const mesh::MeshEvent& event) { on_event(event); }),
       timer_(io),
-      desk_({config.replication.self, config.role, config.runner.endpoint.boot.bits, replication_,
-             map, nodes_, [this] { turn_soon(); }}) {}
-
-void FleetMesh::restore(RestoredFleet restored) {
-  for (auto& copy : restored.copies) {
-    if (!replication_.restore_copy(std::move(copy))) ++copies_refused_;
-  }
-  if (!replication_.restore_logs(MeshRunner::now(), restored.logs)) {
-    log_warning("fleet: more logs are stored than there is room for");
-  }
-  for (const replication::StoredLog& log : restored.logs) {
-    for (const auto& [number, item] : log.items) {
-      if (item && item->kind == replication::ItemKind::kStatus) {
-        hear(MemberId{log.id.origin}, item->bytes);
-      }
-    }
-  }
+      desk_({config.replication.self, config.role, config.log_incarnation, replication_, map,
+             nodes_, [this] { turn_soon(); }}) {
+  if (!config.runner) return;
+  runner_.emplace(io, *config.runner, std::make_shared<mesh::PresharedKeys>(config.key),
+                  replication_, [this](const mesh::MeshEvent& event) { on_event(event); });
 }
 
 void FleetMesh::start() {
@@ -66,7 +53,7 @@ void FleetMesh::start() {
   }
   desk_.start();
   adopt_copies();
-  runner_.start();
+  if (runner_) runner_->start();
   turn_soon();
 }
 
@@ -74,7 +61,7 @@ void FleetMesh::stop() {
   stopped_ = true;
   desk_.stop();
   timer_.cancel();
-  runner_.stop();
+  if (runner_) runner_->stop();
 }
 
 void FleetMesh::on_opened(const OwnLayer& layer) {
@@ -83,8 +70,9 @@ void FleetMesh::on_opened(const OwnLayer& layer) {
   }
 }
 
-void FleetMesh::on_ticked() {
+void FleetMesh::on_ticked(std::vector<SelfLayerWrite> to_store) {
   const MeshTime now = MeshRunner::now();
+  for (SelfLayerWrite& write : to_store) self_backlog_.add(std::move(write));
   for (const auto& [number, own] : map_.own_layers()) {
     Told& told = told_[number];
     const Replica& layer = own.layer();
@@ -101,17 +89,27 @@ void FleetMesh::on_ticked() {
   if (const auto position = map_.position_fleet()) replication_.on_position(now, *position);
   desk_.on_ticked(now, wall_clock_us(), drained_ != nullptr);
   watch_conflicts();
-  speak(now);
+  // Else the word goes out with the revision, when that is stored.
+  if (storing_ || !has_unstored()) speak(now);
   turn_soon();
+}
+
+// The newest own layer as of the last revision that is stored: what a crash may make this node
+// write again must not be heard of.
+std::optional<NodeStatus::Layer> FleetMesh::stored_layer() {
+  if (map_.own_layers().empty()) return std::nullopt;
+  const Replica& layer = map_.own_layers().rbegin()->second.layer();
+  const HeldLayer* const held = replication_.book().find(layer.id());
+  if (held != nullptr && held->may_be_told()) {
+    stored_layer_ = {layer.id(), layer.holdings().at(0),
+                     replication::prefix_of(layer.digest().root()), layer.known_voxels()};
+  }
+  return stored_layer_;
 }
 
 void FleetMesh::speak(MeshTime now) {
   NodeStatus status{config_.name, config_.role, wall_clock_us(), std::nullopt, std::nullopt};
-  if (!map_.own_layers().empty()) {
-    const Replica& layer = map_.own_layers().rbegin()->second.layer();
-    status.layer = {layer.id(), layer.holdings().at(0),
-                    replication::prefix_of(layer.digest().root())};
-  }
+  status.layer = stored_layer();
   if (const auto position = map_.position_fleet()) status.position_fleet = position->cast<float>();
   const OwnWord::Tell tell = word_.judge(now, status, drained_ != nullptr);
   nodes_.note(config_.replication.self, status);
@@ -164,15 +162,15 @@ void FleetMesh::turn() {
   const MeshTime now = MeshRunner::now();
   if (now >= members_told_ + kMembersEvery) {
     members_told_ = now;
-    replication_.on_members(runner_.endpoint().members());
+    if (runner_) replication_.on_members(runner_->endpoint().members());
   }
-  commit();
+  commit(now);
   replication_.advance(now);
   run_commands(now);
   adopt_copies();
   take_items();
   desk_.settle();
-  runner_.run();
+  if (runner_) runner_->run();
   if (drained_ && (now >= drain_until_ || is_drained())) {
     stop();
     return std::exchange(drained_, nullptr)();
@@ -180,27 +178,13 @@ void FleetMesh::turn() {
   wait();
 }
 
-void FleetMesh::commit() {
-  if (storing_ || !replication_.has_unstored()) return;
-  storing_ = true;
-  const replication::StoreBatch batch = replication_.take_batch();
-  store_.write(batch, [this, number = batch.number](bool stored) { on_committed(number, stored); });
-}
-
-void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
-  storing_ = false;
-  ++(stored ? batches_stored_ : batches_failed_);
-  if (stored) replication_.on_stored(MeshRunner::now(), batch);
-  desk_.on_committed(MeshRunner::now(), stored);
-  turn_soon();
-}
-
 void FleetMesh::run_commands(MeshTime now) {
   while (const auto command = replication_.poll_command()) run(now, *command);
 }
 
 void FleetMesh::run(MeshTime now, const replication::Command& command) {
-  mesh::Endpoint& endpoint = runner_.endpoint();
+  if (!runner_) return;
+  mesh::Endpoint& endpoint = runner_->endpoint();
   std::visit(mesh::Visitor{
                  [&](const replication::SetTelemetry& set) {
                    if (!endpoint.set_telemetry(now, set.key, set.bytes)) ++telemetry_refused_;
@@ -245,20 +229,10 @@ void FleetMesh::adopt_copies() {
   }
 }
 
-// Those that came before the layer was known.
-void FleetMesh::take_poses(Replica& copy) {
-  for (const auto& held : replication_.log_book().logs()) {
-    for (const auto& [number, item] : held->log.items()) {
-      const auto pose = replication::read_layer_pose(item);
-      if (!pose || pose->correction || pose->layer != copy.id()) continue;
-      (void)copy.pose().update_origin(pose->pose);
-    }
-  }
-}
-
 void FleetMesh::wait() {
   const MeshTime now = MeshRunner::now();
   MeshTime until = std::min(replication_.next_deadline(), members_told_ + kMembersEvery);
+  if (!storing_ && has_unstored()) until = std::min(until, committed_ + kBetweenCommits);
   if (drained_) until = std::min({until, now + kLookWhileDraining, drain_until_});
   timer_.expires_at(std::max(until, now + Duration(1000)));
   timer_.async_wait([this](std::error_code cancelled) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@
 #include "daemon/fleet/fleet_report.hpp"
 #include "daemon/fleet/node_book.hpp"
 #include "daemon/fleet/own_word.hpp"
+#include "daemon/fleet/restored_node.hpp"
+#include "daemon/fleet/self_backlog.hpp"
 #include "daemon/fleet/store_port.hpp"
 #include "daemon/replication/replication.hpp"
 #include "transport/udp/mesh_runner.hpp"
@@ -24,7 +28,7 @@
 namespace warren {
 
 struct FleetMeshConfig {
-  mesh::MeshRunner::Config runner;
+  std::optional<mesh::MeshRunner::Config> runner;  // none: this node meets nobody
   mesh::Key key{};
   replication::ReplicationConfig replication;
   std::uint64_t log_incarnation = 0;  // fresh random bits
@@ -32,14 +36,9 @@ struct FleetMeshConfig {
   NodeRole role = NodeRole::kRobot;
 };
 
-// What the store had of others.
-struct RestoredFleet {
-  std::vector<std::unique_ptr<Replica>> copies;
-  std::vector<replication::StoredLog> logs;
-};
-
 // Keeps the layers of this node and those of others in step over real sockets: drives replication
-// and the mesh, writes what they change to the store, and brings copies into the merge-map.
+// and the mesh, writes what they and the mapping thread change to the store, and brings copies into
+// the merge-map.
 // Everything happens on the thread that runs the io_context.
 class FleetMesh {
  public:
@@ -48,13 +47,13 @@ class FleetMesh {
   FleetMesh(const FleetMesh&) = delete;
   FleetMesh& operator=(const FleetMesh&) = delete;
 
-  // Before start(), and before any own layer is opened.
-  void restore(RestoredFleet restored);
+  // Before start(), and after the own layers were restored.
+  void restore(StoredFleet stored);
   void start();
   // The map has just opened this layer, or restored it: what it holds is stored.
   void on_opened(const OwnLayer& layer);
-  // The own layers may have news.
-  void on_ticked();
+  // The own layers may have news, and this of the self-map is to be stored with it.
+  void on_ticked(std::vector<SelfLayerWrite> to_store);
   // Goes on until neighbours have what is stored here, but not longer than this; then stops, and
   // calls `done`.
   void drain(Duration at_most, std::function<void()> done);
@@ -65,8 +64,11 @@ class FleetMesh {
   const Replica* newest_copy_of(const std::string& name) const;
   std::string name_of(MemberId member) const;
   FleetDesk& desk() { return desk_; }
+  // Whether it meets others at all.
+  bool is_on() const { return runner_.has_value(); }
 
  private:
+  static constexpr Duration kBetweenCommits = std::chrono::milliseconds(50);
   struct Told {
     Revision revision;
     std::uint32_t pose = 0;
@@ -76,7 +78,9 @@ class FleetMesh {
   void log_event(const mesh::MeshEvent& event) const;
   void turn_soon();
   void turn();
-  void commit();
+  void commit(MeshTime now);
+  bool has_unstored() const { return !self_backlog_.empty() || replication_.has_unstored(); }
+  void add_moved(StoreBatch& rows);
   void on_committed(std::uint64_t batch, bool stored);
   void run_commands(MeshTime now);
   void run(MeshTime now, const replication::Command& command);
@@ -85,11 +89,13 @@ class FleetMesh {
   void take_poses(Replica& copy);
   void hear(MemberId from, std::span<const std::uint8_t> status);
   void speak(MeshTime now);
+  std::optional<NodeStatus::Layer> stored_layer();
   void watch_conflicts();
   bool is_drained() const;
   void wait();
 
   void fill_self(FleetReport& report);
+  void fill_interfaces(FleetReport& report);
   void fill_neighbours(FleetReport& report);
   void fill_layers(FleetReport& report) const;
   FleetLayerReport report_of(const replication::HeldLayer& held) const;
@@ -100,7 +106,11 @@ class FleetMesh {
   FleetMap& map_;
   StorePort& store_;
   replication::Replication replication_;
-  mesh::MeshRunner runner_;
+  std::optional<mesh::MeshRunner> runner_;
+  SelfBacklog self_backlog_;
+  std::map<std::uint32_t, std::uint32_t> poses_stored_;  // revisions of own layers, by number
+  MeshTime committed_ = MeshTime::min();
+  std::optional<NodeStatus::Layer> stored_layer_;  // as this node told of it last
   asio::steady_timer timer_;
   NodeBook nodes_;
   OwnWord word_;

@@ -33,7 +33,7 @@ void FleetMesh::drain(Duration at_most, std::function<void()> done) {
 }
 
 bool FleetMesh::is_drained() const {
-  if (storing_ || replication_.has_unstored()) return false;
+  if (storing_ || has_unstored()) return false;
   const auto& layers = replication_.book().layers();
   for (const auto& [id, peer] : replication_.peers()) {
     if (!peer.up) continue;

@@ -67,14 +67,7 @@ FleetReport FleetMesh::report() {
 void FleetMesh::fill_self(FleetReport& report) {
   node_of(report, config_.replication.self).is_self = true;
   report.nodes.front().role = config_.role;
-  const auto& names = config_.runner.sockets.interfaces;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto index = static_cast<InterfaceIndex>(i);
-    const mesh::MeshSockets& sockets = runner_.sockets();
-    report.interfaces.push_back(
-        {names[i].name, sockets.is_open(index), sockets.problem(index), sockets.counts(index)});
-  }
-  report.endpoint = runner_.endpoint().counts();
+  if (runner_) fill_interfaces(report);
   report.refused = replication_.refused();
   report.telemetry_refused = telemetry_refused_;
   report.copies_refused = copies_refused_;
@@ -83,15 +76,29 @@ void FleetMesh::fill_self(FleetReport& report) {
   report.messages_dropped = desk_.messages().dropped();
   report.orders_refused = desk_.orders().refused();
   report.orders_unauthorised = desk_.orders().unauthorised();
-  report.memory_bytes = replication_.memory_bytes() + runner_.endpoint().memory_bytes();
+  report.memory_bytes = replication_.memory_bytes();
+  if (runner_) report.memory_bytes += runner_->endpoint().memory_bytes();
   report.batches_stored = batches_stored_;
   report.batches_failed = batches_failed_;
   report.storing = storing_;
 }
 
+void FleetMesh::fill_interfaces(FleetReport& report) {
+  report.mesh_on = true;
+  const auto& names = config_.runner->sockets.interfaces;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto index = static_cast<InterfaceIndex>(i);
+    const mesh::MeshSockets& sockets = runner_->sockets();
+    report.interfaces.push_back(
+        {names[i].name, sockets.is_open(index), sockets.problem(index), sockets.counts(index)});
+  }
+  report.endpoint = runner_->endpoint().counts();
+}
+
 void FleetMesh::fill_neighbours(FleetReport& report) {
+  if (!runner_) return;
   const MeshTime now = MeshRunner::now();
-  for (const mesh::Member& member : runner_.endpoint().members()) {
+  for (const mesh::Member& member : runner_->endpoint().members()) {
     FleetNodeReport& node = node_of(report, member.id);
     node.neighbour = member;
     node.last_heard_s = std::chrono::duration<double>(now - member.last_heard).count();
@@ -129,6 +136,8 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
   if (writer != nullptr && writer->status.layer && writer->status.layer->id == held.id) {
     report.up_to_us = writer->revisions.time_of(report.held_everywhere);
     report.latest_us = writer->revisions.time_of(report.latest);
+    const std::uint64_t known = writer->status.layer->known_voxels;
+    report.lag_voxels = known - std::min(known, replica.known_voxels());
   }
   if (const replication::Pull* const pull = replication_.pull_of(held.id)) {
     report.provider = pull->provider;

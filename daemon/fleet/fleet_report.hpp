@@ -24,11 +24,12 @@ struct FleetLayerReport {
   LayerId id;
   bool own = false;
   Resolution resolution;
-  Revision held_everywhere;               // the lowest over all keys
-  Revision held_somewhere;                // the highest
-  Revision latest;                        // that its writer is known to have made
-  std::optional<std::int64_t> up_to_us;   // when held_everywhere was made, by its writer's clock
-  std::optional<std::int64_t> latest_us;  // the same of `latest`
+  Revision held_everywhere;                 // the lowest over all keys
+  Revision held_somewhere;                  // the highest
+  Revision latest;                          // that its writer is known to have made
+  std::optional<std::int64_t> up_to_us;     // when held_everywhere was made, by its writer's clock
+  std::optional<std::int64_t> latest_us;    // the same of `latest`
+  std::optional<std::uint64_t> lag_voxels;  // that its writer knew at last and this copy does not
   // Of the content at `latest`: nothing while not all is held, or its writer has not told.
   std::optional<bool> digest_equal;
   std::optional<MemberId> provider;  // whom it comes from
@@ -68,6 +69,7 @@ struct FleetInterfaceReport {
 };
 
 struct FleetReport {
+  bool mesh_on = false;
   std::vector<FleetNodeReport> nodes;  // this one first, then by name
   std::vector<FleetInterfaceReport> interfaces;
   mesh::EndpointCounts endpoint;

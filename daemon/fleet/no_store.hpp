@@ -15,7 +15,7 @@ namespace warren {
 class NoStore final : public StorePort {
  public:
   explicit NoStore(asio::io_context& io) : io_(io) {}
-  void write(const replication::StoreBatch&, std::function<void(bool)> done) override {
+  void write(StoreBatch, std::function<void(bool)> done) override {
     asio::post(io_, [done = std::move(done)] { done(true); });
   }
 

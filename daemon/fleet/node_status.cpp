@@ -33,8 +33,9 @@ std::optional<NodeStatus::Layer> read_layer(mesh::PacketReader& from) {
   const auto id = replication::read_layer_id(from);
   const auto revision = from.number(std::numeric_limits<std::uint32_t>::max());
   const auto digest = from.fixed(8);
-  if (!id || !revision || !digest) return std::nullopt;
-  return NodeStatus::Layer{*id, {static_cast<std::uint32_t>(*revision)}, *digest};
+  const auto known = from.number(std::numeric_limits<std::uint64_t>::max() / 2);
+  if (!id || !revision || !digest || !known) return std::nullopt;
+  return NodeStatus::Layer{*id, {static_cast<std::uint32_t>(*revision)}, *digest, *known};
 }
 
 std::optional<Eigen::Vector3f> read_position(mesh::PacketReader& from) {
@@ -63,6 +64,7 @@ std::vector<std::uint8_t> encode(const NodeStatus& status) {
     replication::write(to, status.layer->id);
     to.number(status.layer->revision.number);
     to.fixed(status.layer->digest, 8);
+    to.number(status.layer->known_voxels);
   }
   if (status.position_fleet) {
     for (const float coordinate : *status.position_fleet) {

@@ -24,6 +24,7 @@ enum class NodeRole : std::uint8_t { kRobot, kBase };
 //   layer          16       origin, number, incarnation
 //   revision       LEB128   published by then
 //   digest         8        first bytes of the root at that revision
+//   known          LEB128   voxels known by then
 //   position       12       float32 x y z, fleet frame
 struct NodeStatus {
   static constexpr std::uint8_t kKind = 0x31;
@@ -32,6 +33,7 @@ struct NodeStatus {
     LayerId id;
     Revision revision;
     std::uint64_t digest = 0;
+    std::uint64_t known_voxels = 0;
     friend bool operator==(const Layer&, const Layer&) = default;
   };
 

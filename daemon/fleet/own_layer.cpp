@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/fleet/own_layer.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace warren {
+
+OwnLayer::OwnLayer(StoredOwnLayer stored, const PublishingConfig& config,
+                   std::uint32_t rest_after_ticks)
+    : OwnLayer(stored.layer.id(), stored.layer.resolution(),
+               stored.origin.position_map(stored.layer.resolution().metres()), config,
+               rest_after_ticks) {
+  layer_ = std::move(stored.layer);
+  const auto T_fleet_map = stored.T_fleet_map.checked();
+  is_placed_ = T_fleet_map && layer_.pose().origin().revision > 0;
+  if (is_placed_) T_fleet_map_ = *T_fleet_map;
+  apply_correction();
+}
 
 void OwnLayer::tick(std::span<const CodedBlock> changed) {
   traffic_.bytes_of_last_tick = 0;

@@ -10,6 +10,7 @@
 #include "core/layer/publishing_config.hpp"
 #include "core/layer/replica.hpp"
 #include "daemon/fleet/rest_schedule.hpp"
+#include "daemon/fleet/restored_node.hpp"
 
 namespace warren {
 
@@ -38,6 +39,10 @@ class OwnLayer {
         layer_(id, resolution),
         publisher_(config.rules),
         rest_(rest_after_ticks) {}
+
+  // As a store had it; what was held back follows from the exact codes of all its blocks, which the
+  // next tick must have.
+  OwnLayer(StoredOwnLayer stored, const PublishingConfig& config, std::uint32_t rest_after_ticks);
 
   // Its map frame lies there now.
   void move(const Eigen::Isometry3d& T_fleet_map);

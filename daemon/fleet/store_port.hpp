@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "daemon/replication/replication.hpp"
+#include "daemon/store/store_batch.hpp"
 
 namespace warren {
 
@@ -13,7 +13,7 @@ class StorePort {
  public:
   virtual ~StorePort() = default;
   // Calls `done` once, later: true if all of it is stored now. What is not stored leaves no trace.
-  virtual void write(const replication::StoreBatch& batch, std::function<void(bool)> done) = 0;
+  virtual void write(StoreBatch batch, std::function<void(bool)> done) = 0;
 };
 
 }  // namespace warren

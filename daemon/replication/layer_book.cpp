@@ -9,10 +9,14 @@
 namespace warren::replication {
 namespace {
 
-StoredBlock stored_block(const Replica& replica, BlockOrdinal block) {
-  const LayerBlock* const found = replica.find(block);
-  if (found == nullptr) return {block, Revision{}, CodeBlock()};
-  return {block, found->history.latest(), found->codes};
+std::vector<StoredBlock> stored_blocks(const Replica& replica,
+                                       const std::set<BlockOrdinal>& changed) {
+  std::vector<StoredBlock> blocks;
+  for (const BlockOrdinal ordinal : changed) {
+    const LayerBlock* const block = replica.find(ordinal);
+    if (block != nullptr) blocks.push_back({ordinal, block->history.latest(), block->codes});
+  }
+  return blocks;
 }
 
 }  // namespace
@@ -102,8 +106,8 @@ void LayerBook::note_touched(HeldLayer& layer, const KeyInterval& keys, Revision
 
 bool LayerBook::forget(MeshTime now, HeldLayer& layer, const KeyInterval& keys) {
   if (layer.own != nullptr) return false;
-  note_touched(layer, keys, Revision{});
   if (!layer.copy->forget(keys)) return false;
+  layer.forgotten.push_back(keys);
   note_change(now, layer);
   return true;
 }
@@ -120,7 +124,7 @@ const HeldLayer* LayerBook::find(const LayerId& id) const {
 
 bool LayerBook::is_behind_store(const HeldLayer& layer) const {
   if (layer.own != nullptr) return layer.own->holdings().at(0) != layer.batched;
-  if (!layer.not_batched.empty()) return true;
+  if (!layer.not_batched.empty() || !layer.forgotten.empty()) return true;
   for (auto batched = batched_.rbegin(); batched != batched_.rend(); ++batched) {
     if (batched->layer == layer.id) return batched->holdings != layer.copy->holdings();
   }
@@ -139,8 +143,13 @@ std::vector<StoredLayer> LayerBook::take_batch(std::uint64_t batch) {
   for (const auto& layer : layers_) {
     if (!is_behind_store(*layer)) continue;
     const Replica& replica = layer->replica();
-    stored.push_back(
-        {layer->id, replica.resolution(), layer->own != nullptr, replica.holdings(), {}});
+    stored.push_back({layer->id,
+                      replica.resolution(),
+                      layer->own != nullptr,
+                      replica.pose(),
+                      replica.holdings(),
+                      std::exchange(layer->forgotten, {}),
+                      {}});
     auto& blocks = stored.back().blocks;
     if (layer->own != nullptr) {
       replica.for_each_changed({}, layer->batched, [&](BlockOrdinal block, const LayerBlock& now) {
@@ -149,9 +158,7 @@ std::vector<StoredLayer> LayerBook::take_batch(std::uint64_t batch) {
       });
       layer->batched = replica.holdings().at(0);
     } else {
-      for (const BlockOrdinal block : layer->not_batched) {
-        blocks.push_back(stored_block(replica, block));
-      }
+      blocks = stored_blocks(replica, layer->not_batched);
       layer->not_batched.clear();
     }
     batched_.push_back({batch, layer->id, replica.holdings()});

@@ -31,6 +31,7 @@ struct HeldLayer {
   std::uint64_t version = 0;           // counts these changes
   RevisionClock times;
   std::set<BlockOrdinal> not_batched;  // blocks of a copy changed since the last batch
+  std::vector<KeyInterval> forgotten;  // of a copy, since the last batch
   Revision batched;                    // of an own layer
   bool full = false;                   // the copy needs more room than it gets
 
@@ -45,8 +46,10 @@ struct StoredLayer {
   LayerId id;
   Resolution resolution;
   bool own = false;
+  LayerPose pose;
   Holdings holdings;
-  std::vector<StoredBlock> blocks;  // changed_at 0: nothing is known of it any more
+  std::vector<KeyInterval> forgotten;  // emptied before the blocks are put
+  std::vector<StoredBlock> blocks;
 };
 
 enum class Admission : std::uint8_t { kKnown, kAdmitted, kOwnLayer, kOtherResolution, kFull };

@@ -24,6 +24,11 @@ void LogExchange::on_restarted(MemberId member) {
   }
 }
 
+void LogExchange::on_forgotten(MemberId member) {
+  on_restarted(member);
+  peers_.erase(member);
+}
+
 void LogExchange::on_announcement(MemberId from, Slot slot, std::span<const std::uint8_t> bytes) {
   auto announcement = read_log_announcement(bytes);
   Peer& peer = peers_[from];

@@ -33,6 +33,8 @@ class LogExchange {
 
   void on_up(MemberId member, bool up);
   void on_restarted(MemberId member);
+  // It must be down.
+  void on_forgotten(MemberId member);
   void on_announcement(MemberId from, Slot slot, std::span<const std::uint8_t> bytes);
   // Whether the message was one of wishes.
   bool on_message(MemberId from, std::span<const std::uint8_t> bytes);

@@ -17,6 +17,7 @@ namespace warren::replication {
 // say which is which. In one boot a number never means another layer.
 using Slot = std::uint16_t;
 inline constexpr Slot kSlotsMax = 256;
+inline constexpr std::size_t kDiffOverhead = 3;  // of a DiffMessage: kind and slot
 
 // What one map packet of the mesh carries; its first byte is kind and version.
 

@@ -51,6 +51,16 @@ void Replication::on_restarted(Peer& peer) {
   logs_.on_restarted(peer.id);
 }
 
+// It may come back as somebody new.
+void Replication::on_forgotten(MemberId member) {
+  Peer* const peer = node_.find(member);
+  if (peer == nullptr) return;
+  set_up(member, false);
+  on_restarted(*peer);
+  logs_.on_forgotten(member);
+  node_.peers.erase(member);
+}
+
 void Replication::on_telemetry(Peer& from, const mesh::TelemetryArrived& telemetry) {
   if (telemetry.key >= kLayerKeys && telemetry.key < kLayerKeys + kSlotsMax) {
     const auto slot = static_cast<Slot>(telemetry.key - kLayerKeys);
@@ -103,6 +113,7 @@ void Replication::on_event(MeshTime now, const mesh::MeshEvent& event) {
               [&](const mesh::MemberRestarted& restarted) {
                 with(restarted.member, [&](Peer& peer) { on_restarted(peer); });
               },
+              [&](const mesh::MemberForgotten& gone) { on_forgotten(gone.member); },
               [&](const mesh::MemberMoved& moved) {
                 with(moved.member, [&](Peer& peer) { peer.interface = moved.path.interface; });
               },

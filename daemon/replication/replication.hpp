@@ -92,7 +92,8 @@ class Replication final : public mesh::MapSource {
   std::uint64_t group_bytes() const { return serving_.group_bytes(); }
   std::size_t memory_bytes() const;
 
-  // MapSource
+  // MapSource. In a packet of this size every block fits.
+  std::size_t bytes_min() const override { return kDiffOverhead + kPacketBytesMin; }
   std::optional<Packet> next_for(MemberId to, mesh::MapClass wanted, std::size_t limit) override;
   std::optional<Packet> next_for_group(InterfaceIndex interface, std::size_t limit) override;
   void on_acknowledged(MemberId from, std::uint64_t ticket) override;
@@ -102,6 +103,7 @@ class Replication final : public mesh::MapSource {
   void on_map(Peer& from, const mesh::MapArrived& map);
   void on_telemetry(Peer& from, const mesh::TelemetryArrived& telemetry);
   void on_restarted(Peer& peer);
+  void on_forgotten(MemberId member);
   void take_pose(const Item& item);
   void take_poses();
   void look_behind(const HeldLayer& own, const Peer& from);

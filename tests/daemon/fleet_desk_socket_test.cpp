@@ -9,8 +9,6 @@
 
 namespace warren {
 
-using namespace test;
-
 namespace {
 
 control::Response ask(const RunningDaemon& daemon, const control::Request& request) {
@@ -239,6 +237,48 @@ TEST_CASE("an alignment moves a robot's layer, path and position everywhere, the
   control::Request estimate;
   estimate.mutable_align_estimate()->set_node("robot-1");
   CHECK(ask(fleet.base, estimate).error().text().find("--against") != std::string::npos);
+}
+
+TEST_CASE("orders, alignments and messages that nobody has fetched are there after a restart") {
+  Loopback loopback;
+  Config robot_config = loopback.config("robot-1", 1, {0});
+  robot_config.node.fleet_T_map.x_m = 100.0;
+  robot_config.store.file = loopback.file("robot.db");
+  Config base_config = loopback.config("base", 0, {});
+  base_config.store.file = loopback.file("base.db");
+  {
+    RunningDaemon robot(robot_config);
+    RunningDaemon base(base_config);
+    take_scans(robot, 1, 3);
+    wait_for(base, has_all_of("robot-1"));
+    control::Request align = order_on("robot-1", control::FleetOrderRequest::ALIGN);
+    align.mutable_fleet_order()->set_x_m(2.0);
+    REQUIRE(ask(base, align).has_fleet_ordered());
+    REQUIRE(
+        ask(base, order_on("robot-1", control::FleetOrderRequest::RETRACT)).has_fleet_ordered());
+    REQUIRE(is_accepted(ask(base, message_to("robot-1", "come home"))));
+    (void)received(robot, {"come home"});
+  }
+  {
+    // Alone: what it knows, its own store has.
+    RunningDaemon base(base_config);
+    wait_for(base, layers_retracted("robot-1", true));
+    REQUIRE(
+        ask(base, order_on("robot-1", control::FleetOrderRequest::RESTORE)).has_fleet_ordered());
+    wait_for_state(base, 107.05, "occupied");
+  }
+  RunningDaemon robot(robot_config);
+  CHECK(received(robot, {"come home"}).messages_size() == 1);
+  wait_for(robot, [](const control::FleetStatus& status) {
+    const control::FleetNode* const node = node_named(status, "robot-1");
+    return node != nullptr && node->layers_size() == 1 && node->layers(0).latest() > 0;
+  });
+  control::Request path;
+  path.mutable_trajectory()->set_node("robot-1");
+  wait_for_answer(robot, path, [](const control::Response& response) {
+    return response.trajectory().points_size() > 0 &&
+           std::abs(response.trajectory().points(0).x_m() - 102.0) < 0.02;
+  });
 }
 
 }  // namespace warren

@@ -7,10 +7,10 @@
 #include "core/exchange/layer_file.hpp"
 #include "core/layer/hash_text.hpp"
 #include "tests/daemon/loopback_fleet.hpp"
+#include "tests/daemon/running_daemon.hpp"
+#include "tests/daemon/test_client.hpp"
 
 namespace warren {
-
-using namespace test;
 
 TEST_CASE("a base copies what a robot maps, merges it, and saves it by the robot's name") {
   Loopback fleet;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <thread>
@@ -16,8 +17,7 @@
 #include "tests/daemon/test_client.hpp"
 #include "transport/udp/address_text.hpp"
 
-// Whole daemons that share their maps over the loopback interface.
-namespace warren::test {
+namespace warren {
 
 // Ports of our own, so that test processes that run at once do not meet.
 inline std::uint32_t port_of(std::uint32_t node) {
@@ -30,7 +30,7 @@ class Loopback {
   Loopback() { REQUIRE(make_key_file(directory_ / "fleet.key").has_value()); }
 
   Config config(const std::string& name, std::uint32_t node, std::vector<std::uint32_t> seeks) {
-    Config config = name.rfind("base", 0) == 0 ? Config::of_base() : Config{};
+    Config config = name == "base" ? Config::of_base() : Config{};
     config.node.name = name;
     config.layer.tick_s = 0.1;
     config.layer.flush_after_s = 0.1;
@@ -95,4 +95,4 @@ inline auto has_all_of(const std::string& name) {
   };
 }
 
-}  // namespace warren::test
+}  // namespace warren

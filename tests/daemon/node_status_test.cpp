@@ -16,7 +16,8 @@ using std::chrono::seconds;
 const LayerId kLayer{7, 2, 0x1122334455667788};
 
 NodeStatus status_at(std::uint32_t revision, std::int64_t time_us) {
-  return {"robot-3", NodeRole::kRobot, time_us, NodeStatus::Layer{kLayer, {revision}, 0xABCD},
+  return {"robot-3", NodeRole::kRobot, time_us,
+          NodeStatus::Layer{kLayer, {revision}, 0xABCD, 70'000},
           Eigen::Vector3f(1.5F, -2.0F, 0.25F)};
 }
 
@@ -44,9 +45,9 @@ TEST_CASE("a status cut short, too long, of another version or with a strange na
   auto longer = bytes;
   longer.push_back(0);
   CHECK_FALSE(read_node_status(longer).has_value());
-  for (const std::uint8_t kind : {0x30, 0x32, 0x41}) {
+  for (const int kind : {0x30, 0x32, 0x41}) {
     auto other = bytes;
-    other[0] = kind;
+    other[0] = static_cast<std::uint8_t>(kind);
     CHECK_FALSE(read_node_status(other).has_value());
   }
   for (const std::string& name : {std::string(), std::string("-a"), std::string("a b"),

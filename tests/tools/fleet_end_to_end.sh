@@ -47,6 +47,7 @@ start_node() { # NAME NUMBER [SEED_NUMBER..]
     printf 'node: {name: %s, role: %s}\n' "$name" "$role"
     printf 'sockets:\n  ingest: {path: %s}\n  control: {path: %s}\n' \
       "$work/$name.ingest" "$work/$name.control"
+    printf 'store: {file: %s}\n' "$work/$name.db"
     printf 'layer: {tick_s: 0.2, flush_after_s: 1}\n'
     printf 'mesh:\n  key_file: %s\n  port: %s\n  group_port: %s\n  interfaces:\n' \
       "$work/fleet.key" "$((port_base + number))" "$((port_base + 3))"
@@ -146,6 +147,44 @@ case_a_robot_that_is_killed_comes_back_and_the_fleet_goes_on() {
   wait_until "robot-2 has all of robot-1" has_all robot-2 robot-1
   same_layer robot-2 base
   for name in robot-1 robot-2 base; do stop_node "$name"; done
+}
+
+# One layer, of which the base has all: nothing that left the robot was lost by a kill, and no
+# revision was used twice, or the digests would differ.
+case_a_robot_killed_while_it_maps_goes_on_with_its_layer() {
+  start_node robot-1 1
+  start_node base 0 1
+  local round
+  for round in 1 2 3; do
+    "$bin/warren-sim" run --world room --seed "$round" --seconds 20 --columns 128 --rate max \
+      --frame-epoch 1 --socket "$work/robot-1.ingest" >/dev/null 2>&1 &
+    local driver=$!
+    wait_until "robot-1 has published in round $round" has_published robot-1 "$round"
+    kill_node robot-1
+    wait "$driver" || true
+    start_node robot-1 1
+  done
+  drive robot-1 4 8
+  wait_until "the base has all of robot-1" has_all base robot-1
+  same_layer robot-1 base
+  ctl base fleet status --json || fail "$(cat "$work/base.err")"
+  "$python" - "$work/base.out" <<'PY' || fail "$(cat "$work/base.out")"
+import json, sys
+[robot] = [n for n in json.load(open(sys.argv[1]))["nodes"] if n["name"] == "robot-1"]
+sys.exit(0 if len(robot["layers"]) == 1 else 1)
+PY
+  for name in robot-1 base; do stop_node "$name"; done
+}
+
+# Its revision is above that of the round before.
+published=0
+has_published() { # NAME ROUND
+  ctl "$1" status --json || return 1
+  local revision
+  revision=$("$python" -c 'import json, sys
+print(json.load(open(sys.argv[1])).get("publishing", {}).get("revision", 0))' "$work/$1.out")
+  [ "$revision" -gt "$((published + 2))" ] || return 1
+  published=$revision
 }
 
 # What a path or a message watch printed has this in it.

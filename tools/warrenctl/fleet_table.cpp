@@ -41,6 +41,7 @@ std::string lag_of(const control::FleetLayer& layer) {
   if (layer.own()) return "-";
   if (layer.lag_revisions() == 0) return "0";
   std::string text = std::to_string(layer.lag_revisions()) + " rev";
+  if (layer.has_lag_voxels()) text += ", " + std::to_string(layer.lag_voxels()) + " voxels";
   if (layer.has_lag_s()) text += ", " + fixed(layer.lag_s(), 1) + " s";
   return text;
 }

@@ -90,17 +90,25 @@ TEST_CASE("a block that changed and changed back is stored with its new revision
   CHECK(batch[0].holdings == Holdings(Revision{3}));
 }
 
-TEST_CASE("what is forgotten is stored as unknown") {
+TEST_CASE("what is forgotten goes from the store, and what comes again after that is put") {
   Books books;
   HeldLayer& copy = books.copy();
   books.publish(1);
   books.book.apply({}, copy, encoded(books.origin, 0).bytes);
   (void)books.book.take_batch(1);
   REQUIRE(books.book.forget({}, copy, {0, 512}));
-  const auto batch = books.book.take_batch(2);
-  REQUIRE(batch.at(0).blocks.size() == 1);
-  CHECK(batch[0].blocks[0].changed_at == Revision{});
-  CHECK(batch[0].holdings.at(100) == Revision{});
+  CHECK(books.book.has_unstored());
+  const auto emptied = books.book.take_batch(2);
+  CHECK(emptied.at(0).blocks.empty());
+  REQUIRE(emptied[0].forgotten.size() == 1);
+  CHECK(emptied[0].forgotten[0].contains(100));
+  CHECK(emptied[0].holdings.at(100) == Revision{});
+  CHECK_FALSE(books.book.has_unstored());
+  REQUIRE(books.book.forget({}, copy, {0, 512}));
+  books.book.apply({}, copy, encoded(books.origin, 0).bytes);
+  const auto again = books.book.take_batch(3);
+  CHECK(again.at(0).forgotten.size() == 1);
+  CHECK(again[0].blocks.size() == 1);
 }
 
 TEST_CASE("a restored copy goes on where its store was") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -76,10 +77,11 @@ class FaultVfs {
   std::mt19937 random_;
   std::map<std::string, std::unique_ptr<File>> files_;
   std::vector<std::unique_ptr<File>> temporary_;
-  std::uint64_t changes_ = 0;
+  // A test may change these while another thread writes.
+  std::atomic<std::uint64_t> changes_{0};
   std::uint64_t syncs_ = 0;
-  std::uint64_t off_at_ = ~std::uint64_t{0};
-  std::uint64_t capacity_ = ~std::uint64_t{0};
+  std::atomic<std::uint64_t> off_at_{~std::uint64_t{0}};
+  std::atomic<std::uint64_t> capacity_{~std::uint64_t{0}};
   std::uint32_t fail_one_in_ = 0;
   bool lies_ = false;
 };

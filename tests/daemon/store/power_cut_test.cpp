@@ -7,13 +7,14 @@
 #include "tests/daemon/store/opened_store.hpp"
 #include "tests/daemon/store/store_scenario.hpp"
 #include "tests/daemon/temporary_directory.hpp"
+#include "tests/support/under_sanitizer.hpp"
 
 using namespace warren;
 using namespace warren::test;
 
 namespace {
 
-constexpr std::uint32_t kSeeds = 200;
+constexpr std::uint32_t kSeeds = kUnderSanitizer ? 20 : 200;
 constexpr int kCutsPerSeed = 4;
 
 struct Life {
