@@ -3,7 +3,7 @@
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(octomap REQUIRED)
-find_package(PCL REQUIRED COMPONENTS common io filters features search kdtree)
+find_package(PCL REQUIRED COMPONENTS common io filters features search kdtree registration)
 find_package(Protobuf REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(spdlog REQUIRED)

@@ -63,6 +63,7 @@ void fill(const FleetReport& report, const FleetLayerReport& layer, control::Fle
   if (layer.provider) message.set_provider(name_of(report, *layer.provider));
   message.set_hops(layer.own ? 0U : layer.hops);
   message.set_retracted(layer.retracted);
+  message.set_retracted_by_fleet(layer.retracted_by_fleet);
   message.set_out_of_reach(layer.out_of_reach);
   message.set_unplaced(layer.unplaced);
   message.set_full(layer.full);
@@ -130,6 +131,10 @@ void fill_refused(const FleetReport& report, Counts& refused) {
   add_count("telemetry_refused", report.telemetry_refused, refused);
   add_count("copies_not_merged", report.copies_refused, refused);
   add_count("unknown_statuses", report.unknown_statuses, refused);
+  add_count("messages_unreadable", report.messages_unreadable, refused);
+  add_count("messages_dropped", report.messages_dropped, refused);
+  add_count("orders_refused", report.orders_refused, refused);
+  add_count("orders_unauthorised", report.orders_unauthorised, refused);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/layer/layer_pose.hpp"
+#include "daemon/control/fleet_decoder.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
@@ -188,6 +189,12 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return FleetStatusQuestion{};
     case control::Request::kGround:
       return ground_question(request.ground());
+    case control::Request::kMessageSend:
+    case control::Request::kMessageWatch:
+    case control::Request::kFleetOrder:
+    case control::Request::kTrajectory:
+    case control::Request::kAlignEstimate:
+      return decode_fleet_request(request);
     default:
       return tl::unexpected(std::string("the request has no known body"));
   }

@@ -14,6 +14,8 @@
 #include "core/layer/claim.hpp"
 #include "core/terrain/ground.hpp"
 #include "core/voxel/scan.hpp"
+#include "daemon/control/fleet_request.hpp"
+#include "daemon/control/layer_shift.hpp"
 
 namespace warren {
 
@@ -57,12 +59,6 @@ struct CellsQuestion {
   std::variant<std::uint32_t, double> size;
 };
 struct FlushOrder {};
-// How a layer lies apart from where its pose puts it: turned about the vertical through its origin,
-// then shifted.
-struct LayerShift {
-  Eigen::Vector3d shift_fleet_m = Eigen::Vector3d::Zero();
-  double yaw_rad = 0.0;
-};
 struct RetractOrder {
   LayerId layer;
 };
@@ -76,7 +72,8 @@ struct MoveOrder {
 using ControlRequest =
     std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion,
                  LayerDiffQuestion, LoadOrder, FlushOrder, RetractOrder, RestoreOrder, MoveOrder,
-                 CellsQuestion, FleetStatusQuestion>;
+                 CellsQuestion, FleetStatusQuestion, MessageSendOrder, MessageWatchQuestion,
+                 FleetOrder, TrajectoryQuestion, AlignEstimateQuestion>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -27,6 +27,7 @@ class ControlService {
   // may wait for the disk.
   static constexpr std::size_t kMaxPendingFiles = 2;
   static constexpr const char* kTooBusy = "too many questions wait; try again";
+  static constexpr const char* kBusyWithFiles = "busy with other files; try again";
 
   struct Dependencies {
     asio::io_context& io;
@@ -61,6 +62,12 @@ class ControlService {
   void answer(const RestoreOrder& order, const Respond& respond);
   void answer(const MoveOrder& order, const Respond& respond);
   void answer(const FleetStatusQuestion& question, const Respond& respond);
+  void answer(const MessageSendOrder& order, const Respond& respond);
+  void answer(const MessageWatchQuestion& question, const Respond& respond);
+  void answer(const FleetOrder& order, const Respond& respond);
+  void answer(const TrajectoryQuestion& question, const Respond& respond);
+  void answer(const AlignEstimateQuestion& question, const Respond& respond);
+  void ask_mesh(std::function<void(const FleetParts&, const Respond&)> act, const Respond& respond);
   using LoadedLayersOrder = std::function<LoadedLayers::Result(LoadedLayers&)>;
   void change_loaded(const LoadedLayersOrder& order, const Respond& respond);
   void load(const LoadOrder& order, const Respond& done);

@@ -14,8 +14,6 @@
 namespace warren {
 namespace {
 
-constexpr const char* kBusyWithFiles = "busy with other files; try again";
-
 using Saved = tl::expected<SaveReport, std::string>;
 
 std::string encode_saved(const std::filesystem::path& file, const Saved& saved) {

@@ -74,6 +74,19 @@ void FleetMap::restore(std::vector<StoredOwnLayer> layers) {
   }
 }
 
+bool FleetMap::correct_own(const LayerId& layer, const WrittenPose& correction) {
+  const auto found = own_.find(layer.number);
+  if (found == own_.end() || found->second.layer().id() != layer) return false;
+  const bool moved = found->second.correct(correction);
+  if (moved) place_layers();
+  return moved;
+}
+
+std::optional<Eigen::Vector3d> FleetMap::position_layer() const {
+  if (own_.empty() || !position_map_) return std::nullopt;
+  return own_.rbegin()->second.T_map_layer().inverse() * *position_map_;
+}
+
 std::optional<Eigen::Vector3d> FleetMap::position_fleet() const {
   if (own_.empty() || !position_map_) return std::nullopt;
   return own_.rbegin()->second.T_fleet_map() * *position_map_;

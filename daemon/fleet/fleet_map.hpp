@@ -121,7 +121,11 @@ class FleetMap {
   VoxelState own_state(const Eigen::Vector3d& position_merge);
 
   const std::map<std::uint32_t, OwnLayer>& own_layers() const { return own_; }
-  // Where this node's sensor was at the scan taken last.
+  // The operator's word on where an own layer lies; false if it is none, or not newer.
+  bool correct_own(const LayerId& layer, const WrittenPose& correction);
+  // Where this node's sensor was at the scan taken last, in the newest own layer.
+  std::optional<Eigen::Vector3d> position_layer() const;
+  // The same.
   std::optional<Eigen::Vector3d> position_fleet() const;
 
   // The question is about the map frame of the newest own layer, and without gravity. Fills the

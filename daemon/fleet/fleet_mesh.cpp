@@ -7,8 +7,8 @@
 
 #include <asio/post.hpp>
 
+#include "daemon/fleet/wall_clock.hpp"
 #include "daemon/log.hpp"
-#include "daemon/replication/holdings_walk.hpp"
 #include "transport/visitor.hpp"
 
 namespace warren {
@@ -20,12 +20,6 @@ using replication::HeldLayer;
 constexpr std::uint16_t kStatusKey = 1;  // of telemetry; replication's begin at kLayerKeys
 constexpr Duration kMembersEvery = std::chrono::seconds(1);
 constexpr Duration kLookWhileDraining = std::chrono::milliseconds(50);
-constexpr std::size_t kPacketBytes = 1200;
-
-std::int64_t wall_clock_us() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
 
 replication::Item item_of(const NodeStatus& status) {
   constexpr std::string_view kName = "status";
@@ -34,15 +28,6 @@ replication::Item item_of(const NodeStatus& status) {
   item.name.assign(kName.begin(), kName.end());
   item.bytes = encode(status);
   return item;
-}
-
-// Whether this member lacks something of the layer that it wants, or has not acknowledged it.
-bool lacks(const replication::Subscription& subscription, const HeldLayer& layer) {
-  if (!subscription.wanted() || !layer.may_be_told()) return false;
-  const Replica& replica = layer.replica();
-  if (subscription.under_way() > 0 || subscription.next_fresh(replica, kPacketBytes)) return true;
-  return subscription.wants_everything() &&
-         replication::holds_more(replica.holdings(), subscription.believed());
 }
 
 }  // namespace
@@ -54,7 +39,9 @@ FleetMesh::FleetMesh(asio::io_context& io, const FleetMeshConfig& config, FleetM
       map_(map),
       store_(store),
       replication_(config.replication),
-      timer_(io) {
+      timer_(io),
+      desk_({config.replication.self, config.role, config.log_incarnation, replication_, map,
+             nodes_, [this] { turn_soon(); }}) {
   if (!config.runner) return;
   runner_.emplace(io, *config.runner, std::make_shared<mesh::PresharedKeys>(config.key),
                   replication_, [this](const mesh::MeshEvent& event) { on_event(event); });
@@ -64,6 +51,7 @@ void FleetMesh::start() {
   if (replication_.log_book().own() == nullptr) {
     (void)replication_.open_log(config_.log_incarnation);
   }
+  desk_.start();
   adopt_copies();
   if (runner_) runner_->start();
   turn_soon();
@@ -71,6 +59,7 @@ void FleetMesh::start() {
 
 void FleetMesh::stop() {
   stopped_ = true;
+  desk_.stop();
   timer_.cancel();
   if (runner_) runner_->stop();
 }
@@ -98,6 +87,7 @@ void FleetMesh::on_ticked(std::vector<SelfLayerWrite> to_store) {
     if (said) told.pose = pose.revision;
   }
   if (const auto position = map_.position_fleet()) replication_.on_position(now, *position);
+  desk_.on_ticked(now, wall_clock_us(), drained_ != nullptr);
   watch_conflicts();
   // Else the word goes out with the revision, when that is stored.
   if (storing_ || !has_unstored()) speak(now);
@@ -179,6 +169,7 @@ void FleetMesh::turn() {
   run_commands(now);
   adopt_copies();
   take_items();
+  desk_.settle();
   if (runner_) runner_->run();
   if (drained_ && (now >= drain_until_ || is_drained())) {
     stop();
@@ -219,6 +210,7 @@ void FleetMesh::take_items() {
     if (arrived->item.kind == replication::ItemKind::kStatus) {
       hear(MemberId{arrived->log.origin}, arrived->item.bytes);
     }
+    desk_.on_item(*arrived);
   }
   if (poses) map_.place_others();
 }
@@ -235,25 +227,6 @@ void FleetMesh::adopt_copies() {
     log_warning("fleet: a layer of " + name_of({copy.id().origin}) +
                 " is kept, but not merged: " + added.error());
   }
-}
-
-void FleetMesh::drain(Duration at_most, std::function<void()> done) {
-  drain_until_ = MeshRunner::now() + at_most;
-  drained_ = std::move(done);
-  speak(MeshRunner::now());
-  turn_soon();
-}
-
-bool FleetMesh::is_drained() const {
-  if (storing_ || has_unstored()) return false;
-  const auto& layers = replication_.book().layers();
-  for (const auto& [id, peer] : replication_.peers()) {
-    if (!peer.up) continue;
-    for (const auto& [slot, subscription] : peer.subscriptions) {
-      if (slot < layers.size() && lacks(subscription, *layers[slot])) return false;
-    }
-  }
-  return true;
 }
 
 void FleetMesh::wait() {

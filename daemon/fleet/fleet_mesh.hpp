@@ -14,6 +14,7 @@
 #include <asio/steady_timer.hpp>
 
 #include "daemon/fleet/conflict_watch.hpp"
+#include "daemon/fleet/fleet_desk.hpp"
 #include "daemon/fleet/fleet_map.hpp"
 #include "daemon/fleet/fleet_report.hpp"
 #include "daemon/fleet/node_book.hpp"
@@ -61,6 +62,10 @@ class FleetMesh {
   FleetReport report();
   // The newest layer of the node of this name that is copied here; null if there is none.
   const Replica* newest_copy_of(const std::string& name) const;
+  std::string name_of(MemberId member) const;
+  FleetDesk& desk() { return desk_; }
+  // Whether it meets others at all.
+  bool is_on() const { return runner_.has_value(); }
 
  private:
   static constexpr Duration kBetweenCommits = std::chrono::milliseconds(50);
@@ -88,7 +93,6 @@ class FleetMesh {
   void watch_conflicts();
   bool is_drained() const;
   void wait();
-  std::string name_of(MemberId member) const;
 
   void fill_self(FleetReport& report);
   void fill_interfaces(FleetReport& report);
@@ -110,6 +114,7 @@ class FleetMesh {
   asio::steady_timer timer_;
   NodeBook nodes_;
   OwnWord word_;
+  FleetDesk desk_;
   ConflictWatch conflicts_;
   std::map<LayerId, int> conflict_levels_;  // as they were warned about
   std::map<std::uint32_t, Told> told_;      // by number of own layers

@@ -72,6 +72,10 @@ void FleetMesh::fill_self(FleetReport& report) {
   report.telemetry_refused = telemetry_refused_;
   report.copies_refused = copies_refused_;
   report.unknown_statuses = unknown_statuses_;
+  report.messages_unreadable = desk_.messages().unreadable();
+  report.messages_dropped = desk_.messages().dropped();
+  report.orders_refused = desk_.orders().refused();
+  report.orders_unauthorised = desk_.orders().unauthorised();
   report.memory_bytes = replication_.memory_bytes();
   if (runner_) report.memory_bytes += runner_->endpoint().memory_bytes();
   report.batches_stored = batches_stored_;
@@ -142,6 +146,7 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
   report.conflict = conflicts_.score(held.id);
   if (const auto loaded = map_.loaded().find(held.id)) {
     report.retracted = loaded->retracted;
+    report.retracted_by_fleet = loaded->retracted_by_fleet;
     report.out_of_reach = loaded->out_of_reach;
     report.unplaced = loaded->unplaced;
   }

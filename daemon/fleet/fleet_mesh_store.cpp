@@ -63,6 +63,7 @@ void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
   storing_ = false;
   ++(stored ? batches_stored_ : batches_failed_);
   if (stored) replication_.on_stored(MeshRunner::now(), batch);
+  desk_.on_committed(MeshRunner::now(), stored);
   if (stored) speak(MeshRunner::now());
   turn_soon();
 }
@@ -72,9 +73,8 @@ void FleetMesh::take_poses(Replica& copy) {
   for (const auto& held : replication_.log_book().logs()) {
     for (const auto& [number, item] : held->log.items()) {
       const auto pose = replication::read_layer_pose(item);
-      if (!pose || pose->layer != copy.id()) continue;
-      (void)(pose->correction ? copy.pose().update_correction(pose->pose)
-                              : copy.pose().update_origin(pose->pose));
+      if (!pose || pose->correction || pose->layer != copy.id()) continue;
+      (void)copy.pose().update_origin(pose->pose);
     }
   }
 }

@@ -35,6 +35,7 @@ struct FleetLayerReport {
   std::optional<MemberId> provider;  // whom it comes from
   replication::Hops hops = replication::kNoWay;
   bool retracted = false;
+  bool retracted_by_fleet = false;  // by an order of a base
   bool out_of_reach = false;
   bool unplaced = false;
   bool full = false;               // no more room for it here
@@ -76,7 +77,11 @@ struct FleetReport {
   std::uint64_t telemetry_refused = 0;  // by the endpoint
   std::uint64_t copies_refused = 0;     // by the merge-map
   std::uint64_t unknown_statuses = 0;   // that could not be read
-  std::size_t memory_bytes = 0;         // of replication and transport
+  std::uint64_t messages_unreadable = 0;
+  std::uint64_t messages_dropped = 0;     // by the inbox, before anybody fetched them
+  std::uint64_t orders_refused = 0;       // that are none, or somebody else's
+  std::uint64_t orders_unauthorised = 0;  // of nodes that are no base now
+  std::size_t memory_bytes = 0;           // of replication and transport
   std::uint64_t batches_stored = 0;
   std::uint64_t batches_failed = 0;
   bool storing = false;  // a batch is under way

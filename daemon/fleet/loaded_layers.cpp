@@ -30,15 +30,6 @@ tl::unexpected<std::string> refused(std::string why) { return tl::unexpected(std
 
 constexpr const char* kNotLoaded = "no such layer is loaded";
 
-// Turned about the vertical through its origin, then shifted.
-Eigen::Isometry3d shifted(const Eigen::Isometry3d& T_fleet_layer, const LayerShift& shift) {
-  Eigen::Isometry3d moved = T_fleet_layer;
-  moved.linear() = Eigen::AngleAxisd(shift.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
-                   T_fleet_layer.linear();
-  moved.translation() += shift.shift_fleet_m;
-  return moved;
-}
-
 }  // namespace
 
 tl::expected<LoadedLayers::Held*, std::string> LoadedLayers::add(Held held) {
@@ -96,6 +87,13 @@ LoadedLayers::Result LoadedLayers::set_retracted(const LayerId& id, bool retract
   held->voxels = counts_of(*held->replica);
   show(*held);
   return report_of(*held);
+}
+
+void LoadedLayers::set_retracted_by_fleet(const LayerId& id, bool retracted) {
+  Held* const held = find_held(id);
+  if (held == nullptr || held->retracted_by_fleet == retracted) return;
+  held->retracted_by_fleet = retracted;
+  show(*held);
 }
 
 LoadedLayers::Result LoadedLayers::move(const LayerId& id, const LayerShift& shift) {
@@ -175,16 +173,24 @@ LoadedLayers::Held* LoadedLayers::find_held(const LayerId& id) {
 
 void LoadedLayers::show(const Held& held) {
   const LayerId& id = held.replica->id();
-  held.retracted || held.out_of_reach || held.unplaced ? merge_.retract_layer(id)
-                                                       : merge_.restore_layer(id);
+  const bool left_out =
+      held.retracted || held.retracted_by_fleet || held.out_of_reach || held.unplaced;
+  left_out ? merge_.retract_layer(id) : merge_.restore_layer(id);
 }
 
 LoadedLayer LoadedLayers::report_of(const Held& held) {
   const Replica& replica = *held.replica;
   const Eigen::Isometry3d T_fleet_layer = shifted(replica.pose().T_fleet_layer(), held.shift);
-  return {
-      replica.id(),   held.file,         replica.resolution(), held.voxels, Pose::of(T_fleet_layer),
-      held.retracted, held.out_of_reach, held.unplaced};
+  const bool retracted = held.retracted || held.retracted_by_fleet;
+  return {replica.id(),
+          held.file,
+          replica.resolution(),
+          held.voxels,
+          Pose::of(T_fleet_layer),
+          retracted,
+          held.retracted_by_fleet,
+          held.out_of_reach,
+          held.unplaced};
 }
 
 }  // namespace warren

@@ -27,8 +27,9 @@ struct LoadedLayer {
   std::string file;  // empty: a copy
   Resolution resolution;
   MapCounts voxels;
-  Pose T_fleet_layer;  // as its pose says and the operator moved it
-  bool retracted = false;
+  Pose T_fleet_layer;      // as its pose says and the operator moved it
+  bool retracted = false;  // here, or in the whole fleet
+  bool retracted_by_fleet = false;
   bool out_of_reach = false;  // of the merge-map, which leaves it out
   bool unplaced = false;      // a copy whose origin has not said where it lies: left out as well
 };
@@ -52,6 +53,8 @@ class LoadedLayers {
   // As if it had never been loaded, until it is restored.
   Result retract(const LayerId& id) { return set_retracted(id, true); }
   Result restore(const LayerId& id) { return set_retracted(id, false); }
+  // The same by an order to the whole fleet; both have to allow it.
+  void set_retracted_by_fleet(const LayerId& id, bool retracted);
   // In place of an earlier move.
   Result move(const LayerId& id, const LayerShift& shift);
   // The fleet frame lies there now, and layers where their poses say now. Those that come to lie
@@ -83,6 +86,7 @@ class LoadedLayers {
     LayerShift shift{};
     Eigen::Isometry3d T_merge_layer = Eigen::Isometry3d::Identity();
     bool retracted = false;
+    bool retracted_by_fleet = false;
     bool out_of_reach = false;
     bool unplaced = false;
   };

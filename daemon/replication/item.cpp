@@ -50,7 +50,8 @@ std::optional<mesh::ByteRanges> read_ranges(mesh::PacketReader& from) {
 }
 
 mesh::ParcelClass class_of(ItemKind kind) {
-  const bool first = kind == ItemKind::kCommand || kind == ItemKind::kReceipt;
+  const bool first =
+      kind == ItemKind::kCommand || kind == ItemKind::kReceipt || kind == ItemKind::kUrgentMessage;
   return first ? mesh::ParcelClass::kControl : mesh::ParcelClass::kMessage;
 }
 

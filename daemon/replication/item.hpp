@@ -31,8 +31,9 @@ enum class ItemKind : std::uint8_t {
   kStatus,
   kCommand,  // of the operator
   kReceipt,  // ReceiptItem
+  kUrgentMessage,
 };
-inline constexpr std::size_t kItemKinds = 6;
+inline constexpr std::size_t kItemKinds = 7;
 
 struct Item {
   static constexpr std::size_t kBytesMax = 256 * 1024;
@@ -45,8 +46,12 @@ struct Item {
   friend bool operator==(const Item&, const Item&) = default;
 };
 
-// Commands and receipts go before the rest.
+// Commands, receipts and urgent messages go before the rest.
 mesh::ParcelClass class_of(ItemKind kind);
+// Whether it is for an application, which takes it when it likes.
+inline bool is_message(const Item& item) {
+  return item.kind == ItemKind::kMessage || item.kind == ItemKind::kUrgentMessage;
+}
 
 // What a parcel holds. 0x41: log (12 bytes), number (LEB128), item: kind, addressee + 1 (LEB128, 0
 // for all), name behind its length, bytes to the end.
@@ -71,7 +76,8 @@ std::optional<VoidParcel> read_void_parcel(std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> encode(const Item& item);
 std::optional<Item> read_item(std::span<const std::uint8_t> bytes);
 
-// Everything addressed to the writer of this, out of these items of a log, has been taken.
+// Everything addressed to the writer of this, out of these items of a log, has been taken: stored,
+// and, if it is a message, fetched by an application.
 struct ReceiptItem {
   LogId log;
   mesh::ByteRanges taken;
@@ -79,7 +85,7 @@ struct ReceiptItem {
 Item item_of(const ReceiptItem& receipt);
 std::optional<ReceiptItem> read_receipt(const Item& item);
 
-// Where a layer lies, or the operator's correction of that.
+// Where a layer lies. Corrections are the operator's, and believed of commands alone.
 struct LayerPoseItem {
   LayerId layer;
   bool correction = false;

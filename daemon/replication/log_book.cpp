@@ -3,7 +3,34 @@
 
 #include <utility>
 
+#include "daemon/replication/number_ranges.hpp"
+
 namespace warren::replication {
+namespace {
+
+// A message waits for an application; anything else is taken as it is stored.
+void note_for_us(HeldLog& held, ItemNumber number, const Item& item, bool& taken) {
+  if (is_message(item)) {
+    held.untaken.add({number, number + 1ULL});
+  } else {
+    taken = true;
+  }
+}
+
+// Those that count no more need no receipt.
+void forget_void(HeldLog& held) {
+  mesh::ByteRanges waiting;
+  for (const mesh::NumberRange& range : held.untaken.ranges()) {
+    for (std::uint64_t number = range.first; number < range.end; ++number) {
+      if (held.log.find(static_cast<ItemNumber>(number)) != nullptr) {
+        waiting.add({number, number + 1});
+      }
+    }
+  }
+  held.untaken = waiting;
+}
+
+}  // namespace
 
 HeldLog& LogBook::insert(const LogId& id, bool own) {
   logs_.push_back(std::make_unique<HeldLog>(id, own));
@@ -60,7 +87,7 @@ bool LogBook::restore(MeshTime now, std::span<const StoredLog> stored) {
     bool for_us = false;
     for (const auto& [number, item] : held.log.items()) {
       if (!is_for_us(item)) continue;
-      for_us = true;
+      note_for_us(held, number, item, for_us);
       arrived_.push_back({held.log.id(), number, item});
     }
     if (for_us && own_ != nullptr) write_receipt(now, held);
@@ -114,6 +141,19 @@ void LogBook::make_void(MeshTime now, const VoidParcel& parcel) {
   note_change(now, *held);
 }
 
+void LogBook::withdraw(MeshTime now, const mesh::ByteRanges& numbers) {
+  if (own_ == nullptr || numbers.empty()) return;
+  own_->log.make_void(numbers);
+  note_change(now, *own_);
+}
+
+void LogBook::take(MeshTime now, const LogId& log, const mesh::ByteRanges& numbers) {
+  HeldLog* const held = find(log);
+  if (held == nullptr) return;
+  for (const mesh::NumberRange& range : numbers.ranges()) held->untaken.remove(range);
+  write_receipt(now, *held);
+}
+
 bool LogBook::has_unstored() const {
   for (const auto& held : logs_) {
     if (held->log.has_changed()) return true;
@@ -148,7 +188,7 @@ bool LogBook::on_stored(MeshTime now, std::uint64_t batch) {
     for (const ItemNumber number : stored.arrived) {
       const Item* const item = held.log.find(number);
       if (item == nullptr) continue;
-      for_us = for_us || is_for_us(*item);
+      if (is_for_us(*item)) note_for_us(held, number, *item, for_us);
       arrived_.push_back({held.log.id(), number, *item});
     }
     if (for_us) write_receipt(now, held);
@@ -157,8 +197,9 @@ bool LogBook::on_stored(MeshTime now, std::uint64_t batch) {
   return moved;
 }
 
-void LogBook::write_receipt(MeshTime now, const HeldLog& held) {
-  const ReceiptItem receipt{held.log.id(), held.stored};
+void LogBook::write_receipt(MeshTime now, HeldLog& held) {
+  forget_void(held);
+  const ReceiptItem receipt{held.log.id(), beyond(held.stored, held.untaken)};
   if (append(now, item_of(receipt))) apply_receipt(own_->log.id(), item_of(receipt));
 }
 

@@ -21,7 +21,8 @@ struct HeldLog {
   ItemLog log;
   Slot slot = 0;
   bool own = false;
-  mesh::ByteRanges stored;  // of what can be told
+  mesh::ByteRanges stored;   // of what can be told
+  mesh::ByteRanges untaken;  // of that, messages to us that no application has fetched
   MeshTime changed = MeshTime::min();
   std::uint64_t version = 0;
 };
@@ -65,8 +66,12 @@ class LogBook {
 
   bool has_unstored() const;
   std::vector<StoredLog> take_batch(std::uint64_t batch);
+  // These of the own log count no more.
+  void withdraw(MeshTime now, const mesh::ByteRanges& numbers);
+  // An application has fetched these messages: their receipt is written.
+  void take(MeshTime now, const LogId& log, const mesh::ByteRanges& numbers);
   // Everything up to this batch is stored; whether that moved anything on. Receipts for what was
-  // addressed to us are written then.
+  // addressed to us are written then, but for messages.
   bool on_stored(MeshTime now, std::uint64_t batch);
   // Items of others that are stored, each once; after a restart again those addressed to us that no
   // receipt of ours names.
@@ -87,7 +92,7 @@ class LogBook {
   bool restore_one(const StoredLog& stored);
   void note_change(MeshTime now, HeldLog& held);
   void apply_receipt(const LogId& writer, const Item& item);
-  void write_receipt(MeshTime now, const HeldLog& held);
+  void write_receipt(MeshTime now, HeldLog& held);
   bool is_for_us(const Item& item) const { return item.to == self_; }
 
   MemberId self_;

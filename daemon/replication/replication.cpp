@@ -176,10 +176,8 @@ void Replication::on_stored(MeshTime now, std::uint64_t batch) {
 void Replication::take_pose(const Item& item) {
   const auto written = read_layer_pose(item);
   HeldLayer* const layer = written ? node_.book.find(written->layer) : nullptr;
-  if (layer == nullptr || !layer->copy) return;
-  LayerPose& pose = layer->copy->pose();
-  (void)(written->correction ? pose.update_correction(written->pose)
-                             : pose.update_origin(written->pose));
+  if (layer == nullptr || !layer->copy || written->correction) return;
+  (void)layer->copy->pose().update_origin(written->pose);
 }
 
 // A layer may come after its pose.

@@ -95,6 +95,28 @@ TEST_CASE("a correction of the map frame keeps what the operator did to a layer"
   CHECK(fleet.ground(question_at(2))->validity == Validity::kTraversable);
 }
 
+TEST_CASE("a layer is shown if both this node and the fleet's orders allow it") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {floor_block({0, 0, 0}, 15)});
+  const Voxels before = merged(fleet);
+  const LayerId id = fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)}), "old.bt")->id;
+  const Voxels with_it = merged(fleet);
+  fleet.loaded().set_retracted_by_fleet(id, true);
+  CHECK(merged(fleet) == before);
+  CHECK(fleet.loaded().find(id)->retracted);
+  CHECK(fleet.loaded().find(id)->retracted_by_fleet);
+  REQUIRE(fleet.loaded().restore(id).has_value());
+  CHECK(merged(fleet) == before);
+  REQUIRE(fleet.loaded().retract(id).has_value());
+  fleet.loaded().set_retracted_by_fleet(id, false);
+  CHECK(merged(fleet) == before);
+  CHECK_FALSE(fleet.loaded().find(id)->retracted_by_fleet);
+  REQUIRE(fleet.loaded().restore(id).has_value());
+  CHECK(merged(fleet) == with_it);
+  fleet.loaded().set_retracted_by_fleet({1, 2, 3}, true);
+  CHECK(merged(fleet) == with_it);
+}
+
 TEST_CASE("only what is loaded can be retracted, restored or moved") {
   FleetMap fleet = fleet_map();
   for (const auto& result : {fleet.loaded().retract({1, 2, 3}), fleet.loaded().restore({1, 2, 3}),

@@ -189,6 +189,52 @@ print(json.load(open(sys.argv[1])).get("publishing", {}).get("revision", 0))' "$
   published=$revision
 }
 
+# What a path or a message watch printed has this in it.
+shows() { # NAME TEXT ARG..
+  ctl "$1" "${@:3}" && grep -q -- "$2" "$work/$1.out"
+}
+
+case_messages_paths_and_orders_cross_the_fleet() { # robot-1 and the base do not hear each other
+  start_node robot-1 1 2
+  start_node robot-2 2
+  start_node base 0 2
+  drive robot-1 3 8
+  drive robot-2 3 8
+  wait_until "the base has all of robot-1" has_all base robot-1
+  wait_until "the base has all of robot-2" has_all base robot-2
+  wait_until "robot-1 knows the base" ctl robot-1 message send --to base --class urgent "found one"
+  wait_until "the base hears robot-1" shows base 'robot-1 (urgent): found one' message watch --seconds 0
+  ctl base message send --name plan "come home" || fail "$(cat "$work/base.err")"
+  for name in robot-1 robot-2; do
+    wait_until "$name hears the base" shows "$name" 'base to all \[plan\]: come home' message watch --seconds 0
+  done
+  ! ctl robot-1 message send --to nobody hello || fail "a message to nobody was taken"
+  grep -q 'no node called nobody' "$work/robot-1.err" || fail "no reason: $(cat "$work/robot-1.err")"
+
+  wait_until "the base has a path of robot-1" shows base ' 0$' fleet trajectory robot-1
+  local before after
+  before=$(head -n 1 "$work/base.out" | cut -d ' ' -f 2)
+  ! ctl robot-2 align robot-1 1 0 0 0 || fail "a robot gave an order"
+  grep -q 'only a base' "$work/robot-2.err" || fail "no reason: $(cat "$work/robot-2.err")"
+  ctl base align robot-1 -0.6 0.4 0.1 4 || fail "$(cat "$work/base.err")"
+  moved() {
+    ctl robot-2 fleet trajectory robot-1 || return 1
+    after=$(head -n 1 "$work/robot-2.out" | cut -d ' ' -f 2)
+    "$python" -c 'import sys; sys.exit(not abs(float(sys.argv[1]) - 0.6 - float(sys.argv[2])) < 0.25)' \
+      "$before" "$after"
+  }
+  wait_until "robot-2 sees robot-1 moved" moved
+  # Both robots saw the same room: where robot-1 belongs can be told from that, and is not far off.
+  ctl base align robot-1 --estimate --against robot-2 || fail "$(cat "$work/base.out" "$work/base.err")"
+  grep -q 'warrenctl align robot-1' "$work/base.out" || fail "$(cat "$work/base.out")"
+  ctl base fleet retract robot-1 || fail "$(cat "$work/base.err")"
+  wait_until "robot-2 leaves robot-1 out" shows robot-2 'retracted everywhere' fleet status
+  ctl base fleet restore robot-1 || fail "$(cat "$work/base.err")"
+  back() { ctl robot-2 fleet status && ! grep -q 'retracted everywhere' "$work/robot-2.out"; }
+  wait_until "robot-2 takes robot-1 in again" back
+  for name in robot-1 robot-2 base; do stop_node "$name"; done
+}
+
 case_a_fleet_shares_maps_over_bad_radios() {
   [ "$(id -u)" -eq 0 ] || { echo "SKIPPED: network namespaces need root"; exit 0; }
   [ -c /dev/net/tun ] || { echo "SKIPPED: there is no /dev/net/tun"; exit 0; }

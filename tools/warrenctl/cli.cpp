@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/warrenctl/fleet_cli.hpp"
+
 namespace warren {
 namespace {
 
@@ -207,6 +209,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const fleet_status = add_with_json(
       *fleet, "status", "Who is there, and how far their maps have come here", options);
   fleet_status->add_flag("--watch", options.watch, "Again every second, until the daemon ends");
+  FleetCli fleet_cli(app, *fleet);
   auto* const key = app.add_subcommand("key", "The fleet's key")->require_subcommand(1);
   auto* const key_new = key->add_subcommand("new", "Make one; every member needs a copy of it");
   key_new->add_option("FILE", options.file)->required();
@@ -227,6 +230,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   }
   if (const auto command = layer.parsed()) return *command;
   if (fleet_status->parsed()) return FleetStatusCommand{options.json, options.watch};
+  if (const auto command = fleet_cli.parsed()) return *command;
   if (key_new->parsed()) return KeyNewCommand{options.file};
   if (check->parsed()) return ConfigCheckCommand{options.file};
   return ConfigPrintCommand{options.file};

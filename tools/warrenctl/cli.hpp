@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "tools/warrenctl/fleet_commands.hpp"
 #include "tools/warrenctl/layer_commands.hpp"
 
 namespace warren {
@@ -80,7 +81,7 @@ using CtlCommand =
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
                  LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
                  MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand,
-                 FleetStatusCommand, KeyNewCommand, ExitCommand>;
+                 FleetStatusCommand, FleetCommand, KeyNewCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

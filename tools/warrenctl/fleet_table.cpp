@@ -60,7 +60,8 @@ std::string state_of(const control::FleetNode& node, const control::FleetLayer& 
   } else {
     text = layer.hops() < kNoWay ? "waits" : "nobody here has more";
   }
-  if (layer.retracted()) text += "; retracted";
+  if (layer.retracted_by_fleet()) text += "; retracted everywhere";
+  if (layer.retracted() && !layer.retracted_by_fleet()) text += "; retracted";
   if (layer.out_of_reach()) text += "; too far off for the merge-map";
   if (layer.unplaced()) text += "; where it lies is not known yet";
   if (layer.full()) text += "; no more room for it here";

@@ -174,6 +174,7 @@ struct Executor {
     }
     return code;
   }
+  int operator()(const FleetCommand& command) const { return run(command, socket); }
   int operator()(const KeyNewCommand& command) const {
     if (const auto made = make_key_file(command.file); !made) {
       std::cerr << "warrenctl: " << made.error() << "\n";
