@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/warrenctl/layer_commands.hpp"
+#include "tools/warrenctl/ray_command.hpp"
 
 namespace warren {
 
@@ -57,6 +58,7 @@ struct GroundCommand {
   std::optional<double> above_m;
   std::optional<double> below_m;
   bool stair_capable = false;
+  double unknown_up_to = 0.0;
   bool json = false;
 };
 struct CellsCommand {
@@ -80,7 +82,7 @@ using CtlCommand =
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
                  LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
                  MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand,
-                 FleetStatusCommand, KeyNewCommand, ExitCommand>;
+                 FleetStatusCommand, KeyNewCommand, RayCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;
