@@ -89,7 +89,7 @@ Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::pa
       service_(service_dependencies()),
       control_(io, control_socket_.release_descriptor(),
                [this](const ControlRequest& request, const ControlService::Respond& respond) {
-                 service_.handle(request, respond);
+                 return service_.handle(request, respond);
                }),
       watchdog_(io, mapper_, fleet_, [this] { dependencies_.notify("WATCHDOG=1"); }) {}
 

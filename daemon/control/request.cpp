@@ -6,6 +6,7 @@
 
 #include "core/layer/layer_pose.hpp"
 #include "daemon/control/fleet_decoder.hpp"
+#include "daemon/control/planner_request.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
@@ -82,6 +83,9 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   if (!control::MapSource_IsValid(request.source())) {
     return tl::unexpected(std::string("ground.source is unknown"));
   }
+  if (!(request.unknown_up_to() >= 0.0 && request.unknown_up_to() <= 1.0)) {
+    return tl::unexpected(std::string("ground.unknown_up_to is 0 to 1"));
+  }
   const Doubles& pose = request.t_map_base();
   GroundQuestion question;
   question.source = source_of(request.source());
@@ -89,6 +93,7 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   question.T_map_base.rotation = Eigen::Quaterniond(pose[6], pose[3], pose[4], pose[5]);
   question.footprint = {request.length_m(), request.width_m()};
   question.stair_capable = request.stair_capable();
+  question.unknown_up_to = request.unknown_up_to();
   if (request.has_above_m()) question.above_m = request.above_m();
   if (request.has_below_m()) question.below_m = request.below_m();
   if (request.gravity_map_size() == 3) question.gravity_map = vector_at(request.gravity_map(), 0);
@@ -195,6 +200,10 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
     case control::Request::kTrajectory:
     case control::Request::kAlignEstimate:
       return decode_fleet_request(request);
+    case control::Request::kBlocks:
+      return blocks_question(request.blocks());
+    case control::Request::kRays:
+      return rays_question(request.rays());
     default:
       return tl::unexpected(std::string("the request has no known body"));
   }

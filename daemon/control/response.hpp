@@ -16,6 +16,8 @@
 
 namespace warren {
 
+inline constexpr const char* kTooManyQuestions = "too many questions wait; try again";
+
 struct StatusReport {
   std::string node;
   std::string version;
@@ -39,6 +41,8 @@ std::string encode_map_loaded(const LoadedLayer& layer);
 std::string encode_loaded_layer(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_cells(const CellsAnswer& answer);
+std::string encode_blocks(const BlocksAnswer& answer);
+std::string encode_rays(const RaysAnswer& answer);
 std::string encode_fleet_status(const FleetReport& report);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);

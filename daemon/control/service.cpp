@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/control/service.hpp"
 
+#include <type_traits>
 #include <utility>
 
 #include <asio/executor_work_guard.hpp>
@@ -10,12 +11,22 @@
 
 namespace warren {
 
-ControlService::ControlService(Dependencies dependencies) : parts_(std::move(dependencies)) {}
+ControlService::ControlService(Dependencies dependencies)
+    : parts_(std::move(dependencies)), subscriptions_(parts_.io, parts_.fleet) {}
 
 ControlService::~ControlService() { files_.join(); }
 
-void ControlService::handle(const ControlRequest& request, const Respond& respond) {
-  std::visit([&](const auto& body) { answer(body, respond); }, request);
+Hurry ControlService::handle(const ControlRequest& request, const Respond& respond) {
+  return std::visit(
+      [&](const auto& body) -> Hurry {
+        if constexpr (std::is_same_v<std::decay_t<decltype(body)>, BlocksQuestion>) {
+          return subscriptions_.answer(body, respond);
+        } else {
+          answer(body, respond);
+          return nullptr;
+        }
+      },
+      request);
 }
 
 // The guards below keep the io_context running until the answer is back.
@@ -94,6 +105,18 @@ void ControlService::answer(const CellsQuestion& question, const Respond& respon
         const auto cells = fleet.map.cells(question);
         asio::post(parts_.io,
                    [respond, frame = cells ? encode_cells(*cells) : encode_error(cells.error())] {
+                     respond(frame);
+                   });
+      });
+  if (!asked) respond(encode_error(kTooBusy));
+}
+
+void ControlService::answer(const RaysQuestion& question, const Respond& respond) {
+  const bool asked = parts_.fleet.ask(
+      [this, question, respond, guard = asio::make_work_guard(parts_.io)](const FleetParts& fleet) {
+        const auto rays = fleet.map.rays(question);
+        asio::post(parts_.io,
+                   [respond, frame = rays ? encode_rays(*rays) : encode_error(rays.error())] {
                      respond(frame);
                    });
       });

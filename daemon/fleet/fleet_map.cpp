@@ -141,16 +141,13 @@ tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& q
 }
 
 tl::expected<CellsAnswer, std::string> FleetMap::cells(const CellsQuestion& question) {
+  if (!has_map(question.source)) return tl::unexpected(std::string(kNoMapYet));
   const bool on_merge = question.source == MapSource::kMerge;
-  if (own_.empty() && (!on_merge || loaded_.size() == 0)) {
-    return tl::unexpected(std::string(kNoMapYet));
-  }
   const double resolution_m = config_.resolution.metres();
-  const Eigen::Vector3d origin_map =
-      on_merge ? merge_origin_map_ : own_.rbegin()->second.T_map_layer().translation();
-  const auto grid = grid_of(question, resolution_m, origin_map);
+  const Eigen::Vector3d origin = origin_map(question.source);
+  const auto grid = grid_of(question, resolution_m, origin);
   if (!grid) return tl::unexpected(grid.error());
-  return CellsAnswer{resolution_m, origin_map, grid->level(),
+  return CellsAnswer{resolution_m, origin, grid->level(),
                      on_merge ? cells_of(merge_, *grid) : cells_of(*current(), *grid)};
 }
 

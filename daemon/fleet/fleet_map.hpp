@@ -16,9 +16,11 @@
 #include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/merge_map.hpp"
 #include "daemon/control/request.hpp"
+#include "daemon/fleet/blocks_answer.hpp"
 #include "daemon/fleet/cells_answer.hpp"
 #include "daemon/fleet/loaded_layers.hpp"
 #include "daemon/fleet/own_layer.hpp"
+#include "daemon/fleet/rays_answer.hpp"
 #include "daemon/mapper/layered_map.hpp"
 
 namespace warren {
@@ -134,6 +136,9 @@ class FleetMap {
   // Of the current own layer as it is published, or of the merge-map; the question is about the map
   // frame of the newest own layer.
   tl::expected<CellsAnswer, std::string> cells(const CellsQuestion& question);
+  // Likewise. A new own layer is a new map frame, in which a copy begins anew.
+  tl::expected<BlocksAnswer, std::string> blocks(const BlocksQuestion& question);
+  tl::expected<RaysAnswer, std::string> rays(const RaysQuestion& question);
   PublishingReport report() const;
   // All of the merge-map, for a file. Nothing while no layer is held.
   std::shared_ptr<const MergedSnapshot> merged_snapshot();
@@ -149,6 +154,11 @@ class FleetMap {
   OwnLayer& open(std::uint32_t number, const Eigen::Vector3d& origin_map, Args&&... args);
   LayerMemory memory() const;
   const Replica* current() const;
+  bool has_map(MapSource source) const {
+    return !own_.empty() || (source == MapSource::kMerge && loaded_.size() > 0);
+  }
+  // Where key (0, 0, 0) of that map lies in the map frame. Precondition: has_map(source).
+  Eigen::Vector3d origin_map(MapSource source) const;
   Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;
   // Layers that lie elsewhere in the merge-map's frame than before are moved there; those beyond
   // its reach are left out of it, and counted.

@@ -24,6 +24,7 @@ struct Options {
   std::array<double, 4> shift{};  // x y z yaw
   GroundCommand ground;
   CellsCommand cells;
+  RayCommand ray;
   std::string other_file;
   std::uint32_t origin = 0;
   bool regions = false;
@@ -67,6 +68,21 @@ CLI::App* add_ground(CLI::App& query, Options& options) {
   command->add_option("--below", ground.below_m, "To so far below it (0.7), m");
   command->add_flag("--merge", ground.on_merge, "On the merge-map: what others know counts too");
   command->add_flag("--stair-capable", ground.stair_capable, "The robot can climb stairs");
+  command
+      ->add_option("--unknown-up-to", ground.unknown_up_to,
+                   "Share of the footprint whose cost may be unknown")
+      ->check(CLI::Range(0.0, 1.0));
+  return command;
+}
+
+CLI::App* add_ray(CLI::App& query, Options& options) {
+  auto* const command = add_with_json(query, "ray", "What a ray meets first", options);
+  RayCommand& ray = options.ray;
+  command->add_option("RAY", ray.ray_map, "x y z of its origin, map, m; x y z of its direction")
+      ->required();
+  command->add_option("--max-range", ray.max_range_m, "Look so far, m")->capture_default_str();
+  command->add_flag("--merge", ray.on_merge, "On the merge-map: what others know counts too");
+  command->add_flag("--through-unknown", ray.through_unknown, "Only what is occupied stops it");
   return command;
 }
 
@@ -199,6 +215,7 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
                                 "x y z, map, m", 3, options);
   auto* const box = add_cells(*query, "box", "The codes of all cells that a box touches", "CORNERS",
                               "Lowest x y z, highest x y z, map, m", 6, options);
+  auto* const ray = add_ray(*query, options);
   auto* const config = app.add_subcommand("config", "Configuration")->require_subcommand(1);
   auto* const check = config->add_subcommand("check", "Tell all faults of a file");
   check->add_option("FILE", options.file)->required();
@@ -227,6 +244,10 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   if (point->parsed() || box->parsed()) {
     options.cells.json = options.json;
     return options.cells;
+  }
+  if (ray->parsed()) {
+    options.ray.json = options.json;
+    return options.ray;
   }
   if (const auto command = layer.parsed()) return *command;
   if (fleet_status->parsed()) return FleetStatusCommand{options.json, options.watch};

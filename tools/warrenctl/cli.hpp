@@ -10,6 +10,7 @@
 
 #include "tools/warrenctl/fleet_commands.hpp"
 #include "tools/warrenctl/layer_commands.hpp"
+#include "tools/warrenctl/ray_command.hpp"
 
 namespace warren {
 
@@ -58,6 +59,7 @@ struct GroundCommand {
   std::optional<double> above_m;
   std::optional<double> below_m;
   bool stair_capable = false;
+  double unknown_up_to = 0.0;
   bool json = false;
 };
 struct CellsCommand {
@@ -81,7 +83,7 @@ using CtlCommand =
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
                  LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
                  MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand,
-                 FleetStatusCommand, FleetCommand, KeyNewCommand, ExitCommand>;
+                 FleetStatusCommand, FleetCommand, KeyNewCommand, RayCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

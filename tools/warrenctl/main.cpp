@@ -47,6 +47,7 @@ control::Request request_of(const GroundCommand& command) {
   ground.set_width_m(command.width_m);
   ground.set_stair_capable(command.stair_capable);
   ground.set_source(command.on_merge ? control::MERGE : control::SELF);
+  ground.set_unknown_up_to(command.unknown_up_to);
   if (command.above_m) ground.set_above_m(*command.above_m);
   if (command.below_m) ground.set_below_m(*command.below_m);
   return request;
@@ -135,6 +136,11 @@ struct Executor {
   int operator()(const CellsCommand& command) const {
     return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
       return command.json ? json_of(response.cells()) : table_of(response.cells());
+    });
+  }
+  int operator()(const RayCommand& command) const {
+    return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
+      return command.json ? json_of(response.rays()) : sentence_of(response.rays());
     });
   }
   int operator()(const ConfigCheckCommand& command) const {
