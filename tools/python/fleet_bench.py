@@ -175,8 +175,9 @@ def crowd(quick):
             took = trial.settle(240.0)
             nodes = trial.stats()["nodes"]
             airtime_s = 8.0 * sum(node["sent_bytes"] for node in nodes) / trial.rate
-            delivered = sum(layer.voxels_free + layer.voxels_occupied
-                            for node in trial.fleet.nodes for layer in node.status().loaded)
+            # Known once everybody has all.
+            known = sum(history[-1][2] for history in trial.ledger.mapped.values())
+            delivered = 0 if took is None else known * len(trial.fleet.robots)
             yield {"robots": len(trial.fleet.robots), "group_packets": group_packets, **scans,
                    **trial.kb_per_s(), **trial.lag(), "caught_up_after_s": took,
                    "airtime_s": airtime_s, "voxels_delivered": delivered,
