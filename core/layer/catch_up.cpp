@@ -49,6 +49,7 @@ std::vector<KeyInterval> catch_up_parts(const Replica& sender, Revision from) {
   hot = joined(std::move(hot), sender, from);
   std::sort(hot.begin(), hot.end(), [](const Part& a, const Part& b) { return a.rank < b.rank; });
   std::vector<KeyInterval> parts;
+  parts.reserve(hot.size() + 1);
   for (const Part& part : hot) parts.push_back(part.keys);
   parts.push_back({});
   return parts;

@@ -80,9 +80,8 @@ class LeafWalk {
     const std::uint32_t count = 1U << 3 * (level - 1);
     for (std::uint64_t child = morton; child < morton + 8 * count; child += count) {
       const auto first = static_cast<std::uint32_t>(child & (kVoxelsPerBlock - 1));
-      if (!emit(child, level - 1, CodeMix::of(codes, first, count))) {
-        walk_voxels(child, level - 1, codes);
-      }
+      const bool is_leaf = emit(child, level - 1, CodeMix::of(codes, first, count));
+      if (!is_leaf && level > 1) walk_voxels(child, level - 1, codes);
     }
   }
 

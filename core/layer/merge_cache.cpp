@@ -74,8 +74,9 @@ void MergeCache::evict_one() {
 }
 
 std::size_t MergeCache::memory_bytes() const {
+  const std::size_t pointers = owners_.capacity() + sources_.capacity();
   return codes_.memory_bytes() + slots_with_sources_ * sizeof(Sources) + asked_for_.capacity() +
-         owners_.capacity() * sizeof(owners_[0]) + sources_.capacity() * sizeof(sources_[0]);
+         pointers * sizeof(void*);
 }
 
 }  // namespace warren

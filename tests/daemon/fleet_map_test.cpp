@@ -76,7 +76,7 @@ TEST_CASE("regions that nothing changes are packed, a few at each tick, and wake
   CHECK(awake.memory.regions == kRegions);
   for (int ticks = 0; ticks < 2; ++ticks) tick(fleet, {});
   CHECK(fleet.report().memory.regions_at_rest == 0);
-  for (const std::size_t at_rest : {8, 16, 20, 20}) {
+  for (const std::size_t at_rest : {8U, 16U, 20U, 20U}) {
     tick(fleet, {});
     CHECK(fleet.report().memory.regions_at_rest == at_rest);
   }

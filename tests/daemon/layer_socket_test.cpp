@@ -30,7 +30,7 @@ void take_one_scan(const RunningDaemon& daemon) {
 // Asks until a tick has published something: bounded by the client's patience.
 control::Publishing first_published(const RunningDaemon& daemon) {
   for (int asked = 0; asked < 100'000; ++asked) {
-    const control::Publishing now = daemon.status().publishing();
+    control::Publishing now = daemon.status().publishing();
     if (now.revision() > 0) return now;
   }
   FAIL("nothing was published");
@@ -40,7 +40,7 @@ control::Publishing first_published(const RunningDaemon& daemon) {
 // Asks until the scan's tick and the flush after it have been: bounded by the client's patience.
 control::Publishing published(const RunningDaemon& daemon) {
   for (int asked = 0; asked < 100'000; ++asked) {
-    const control::Publishing now = daemon.status().publishing();
+    control::Publishing now = daemon.status().publishing();
     if (now.revision() > 0 && now.blocks_held_back() == 0) return now;
   }
   FAIL("nothing was published");
@@ -113,7 +113,7 @@ TEST_CASE("a map of an earlier mission is loaded, whatever its format, and count
       request.mutable_map_save()->set_path(daemon.file(name).string());
       REQUIRE(TestClient(daemon.control_socket()).ask(request).has_map_saved());
     }
-    const auto directory = std::filesystem::temp_directory_path() / "warren-earlier-mission";
+    auto directory = std::filesystem::temp_directory_path() / "warren-earlier-mission";
     std::filesystem::remove_all(directory);
     std::filesystem::create_directory(directory);
     for (const char* const name : {"old.layer", "old.bt"}) {

@@ -23,6 +23,7 @@ double median(std::vector<double> values) {
 template <typename F>
 double median_by(const std::vector<TransportRun>& runs, F&& figure) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const TransportRun& run : runs) values.push_back(figure(run));
   return median(std::move(values));
 }
@@ -92,6 +93,7 @@ tl::expected<std::vector<TransportResult>, std::string> bench_transport(
     }
   };
   std::vector<std::jthread> workers;
+  workers.reserve(static_cast<std::size_t>(options.jobs));
   for (int i = 0; i < options.jobs; ++i) workers.emplace_back(work);
   workers.clear();
   for (TransportResult& result : results) result.median = median_of(result.runs);

@@ -61,7 +61,8 @@ void kill_all_in(const std::string& name) {
 tl::expected<FileDescriptor, std::string> open_device(bool ethernet) {
   FileDescriptor device(open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC));
   ifreq request{};
-  std::strcpy(request.ifr_name, kDevice);
+  static_assert(sizeof(kDevice) <= sizeof(request.ifr_name));
+  std::memcpy(request.ifr_name, kDevice, sizeof(kDevice));
   request.ifr_flags = static_cast<short>((ethernet ? IFF_TAP : IFF_TUN) | IFF_NO_PI);
   if (device.get() < 0 || ioctl(device.get(), TUNSETIFF, &request) != 0) {
     return Error("/dev/net/tun: " + std::string(std::strerror(errno)));

@@ -24,6 +24,7 @@ constexpr int kCannotRun = 127;
   std::vector<std::string> words{"ip", "netns", "exec", network_namespace};
   words.insert(words.end(), command.begin(), command.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execvp("ip", arguments.data());

@@ -20,7 +20,7 @@ tl::expected<std::uint64_t, std::string> LayerFollower::catch_up() {
   std::uint64_t bytes = 0;
   std::optional<BlockOrdinal> next_key = 0;
   while (next_key) {
-    const auto taken = ask_from(*next_key, next_key);
+    auto taken = ask_from(*next_key, next_key);
     if (!taken) return taken;
     bytes += *taken;
   }

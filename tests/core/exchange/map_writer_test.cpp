@@ -22,8 +22,6 @@ MapSnapshot room_map(const LayerOrigin& origin, const SensorModel& model = Senso
   return map;
 }
 
-using test::states_of;
-
 States states_of(const MapSnapshot& map, const LayerOrigin& shift) {
   States states;
   const auto moved = [](std::int32_t key, std::int64_t by) {
