@@ -16,8 +16,6 @@ using namespace warren::test;
 
 namespace {
 
-using test::states_of;
-
 States states_of(const Replica& layer) {
   States states;
   layer.for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock& found) {
