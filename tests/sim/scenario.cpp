@@ -105,9 +105,10 @@ LinkConfig Scenario::impaired() {
 }
 
 void Scenario::set_all(const LinkConfig& link) {
+  const auto nodes = static_cast<StationIndex>(simulation_.nodes());
   for (std::size_t k = 0; k < simulation_.networks(); ++k) {
-    for (StationIndex from = 0; from < simulation_.nodes(); ++from) {
-      for (StationIndex to = 0; to < simulation_.nodes(); ++to) {
+    for (StationIndex from = 0; from < nodes; ++from) {
+      for (StationIndex to = 0; to < nodes; ++to) {
         if (from != to) simulation_.network(k).set_link(simulation_.now(), from, to, link);
       }
     }

@@ -58,7 +58,7 @@ TEST_CASE("opportunities start over at the last one's time") {
 }
 
 TEST_CASE("a full queue uses every opportunity exactly once") {
-  CHECK(rc::check("as a walk over the list says", [](std::vector<std::uint8_t> gaps) {
+  CHECK(rc::check("as a walk over the list says", [](const std::vector<std::uint8_t>& gaps) {
     RC_PRE(!gaps.empty());
     Opportunities list;
     std::uint32_t now = 0;

@@ -36,8 +36,9 @@ TEST_CASE("every transport brings a payload over a clean link, none faster than 
   if (!may_make_namespaces()) return;
   const auto result = bench("--bytes 200000 --rate 2e6 --rtt-ms 20 --jobs 5");
   CHECK(result["peers"].size() == 5);
-  for (const auto& [name, peer] : result["peers"].items()) {
-    CAPTURE(name);
+  for (const auto& entry : result["peers"].items()) {
+    const auto& peer = entry.value();
+    CAPTURE(entry.key());
     if (peer.contains("available")) continue;  // this kernel has no bbr
     CHECK(!peer.contains("problem"));
     REQUIRE(peer["seconds"].is_number());
@@ -73,8 +74,9 @@ TEST_CASE("beside another flow both shares of the link are told") {
   const auto result = bench(
       "--bytes 400000 --rate 2e6 --rtt-ms 20 --peers ours,tcp-cubic --against tcp-cubic --jobs 2");
   CHECK(result["against"] == "tcp-cubic");
-  for (const auto& [name, peer] : result["peers"].items()) {
-    CAPTURE(name);
+  for (const auto& entry : result["peers"].items()) {
+    const auto& peer = entry.value();
+    CAPTURE(entry.key());
     CHECK(!peer.contains("problem"));
     CHECK(peer["share"] > 0.01);
     CHECK(peer["share"] < 0.99);

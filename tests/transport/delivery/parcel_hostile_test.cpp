@@ -193,7 +193,7 @@ TEST_CASE("random parcel frames never exceed the bounds") {
         frame.finished_before = *few;
         frame.total = *few;
         frame.offset = *few;
-        frame.bytes.resize(*rc::gen::inRange(0, 4));
+        frame.bytes.resize(*rc::gen::inRange<std::size_t>(0, 4));
         const auto received = inbox.on_frame(frame);
         RC_ASSERT(inbox.unfinished_bytes() <= config.parcel.received_bytes_max);
         RC_ASSERT(budget.used() == inbox.unfinished_bytes());
