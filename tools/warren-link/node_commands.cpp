@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tools/link/argument_pointers.hpp"
+
 namespace warren {
 namespace {
 
@@ -23,11 +25,7 @@ constexpr int kCannotRun = 127;
   sigprocmask(SIG_SETMASK, &none, nullptr);
   std::vector<std::string> words{"ip", "netns", "exec", network_namespace};
   words.insert(words.end(), command.begin(), command.end());
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  execvp("ip", arguments.data());
+  execvp("ip", argument_pointers(words).data());
   _exit(kCannotRun);
 }
 

@@ -14,6 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tools/link/argument_pointers.hpp"
+
 namespace warren::test {
 
 bool may_make_namespaces() {
@@ -29,9 +31,7 @@ RunningLink::RunningLink(const std::vector<std::string>& arguments) {
   REQUIRE(pipe2(out, O_CLOEXEC) == 0);
   std::vector<std::string> words{WARREN_LINK};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = argument_pointers(words);
   pid_ = fork();
   if (pid_ == 0) {
     dup2(in[0], STDIN_FILENO);
