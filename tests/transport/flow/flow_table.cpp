@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
       row(filter, "1M jitter " + std::to_string(jitter) + lossy,
           {.loss = share, .jitter = milliseconds{jitter}, .app_bytes = 5'000'000});
     }
-    for (const std::size_t buffer : {2, 5}) {
+    for (const std::size_t buffer : {2U, 5U}) {
       row(filter, "1M buffer " + std::to_string(buffer) + lossy,
           {.loss = share, .buffer_packets = buffer, .app_bytes = 5'000'000});
     }

@@ -93,7 +93,7 @@ TEST_CASE("jitter that turns packets about") {
 }
 
 TEST_CASE("buffers of a few packets, in which no delay shows") {
-  for (const std::size_t buffer : {2, 5}) {
+  for (const std::size_t buffer : {2U, 5U}) {
     for (const double loss : {0.0, 0.05, 0.2}) {
       CAPTURE(buffer);
       CAPTURE(loss);

@@ -31,7 +31,7 @@ double app_rate(Transfer& transfer, Duration from, Duration to) {
 }
 
 TEST_CASE("the link falls from 1 to 0.1 Mbit/s and rises again: followed within 3.5 s") {
-  for (const std::size_t buffer : {2, 10, 1'000'000}) {
+  for (const std::size_t buffer : {2U, 10U, 1'000'000U}) {
     for (const Duration rtt : {milliseconds{50}, milliseconds{100}}) {
       std::vector<double> slow, fast, queue;
       for (std::uint64_t seed = 1; seed <= 3; ++seed) {
