@@ -80,7 +80,9 @@ TEST_CASE("keys are those of the golden vectors") {
 
 TEST_CASE("frames and beacons are those of the golden vectors, both ways") {
   const Vectors golden = read_vectors();
-  for (const auto& [name, frame] : frames()) {
+  for (const auto& entry : frames()) {
+    const auto& name = entry.first;
+    const auto& frame = entry.second;
     CAPTURE(name);
     Bytes content;
     append(content, frame);
