@@ -46,4 +46,8 @@ function(warren_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC warren_options)
   target_precompile_headers(${name} REUSE_FROM warren_headers)
+  if(WARREN_SANITIZE MATCHES "thread")
+    # Only what its fewer programs link.
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
 endfunction()

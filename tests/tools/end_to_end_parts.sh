@@ -26,6 +26,8 @@ sockets:
     path: $work/ingest.sock
   control:
     path: $work/control.sock
+store:
+  file: $work/warren.db
 ingest:
   queue_scans: ${1:-8}
 sensors:
