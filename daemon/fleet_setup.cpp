@@ -75,6 +75,7 @@ tl::expected<FleetConfig, std::string> fleet_config_of(const Config& config) {
   }
   mesh.replication.self = MemberId{origin};
   mesh.replication.share = share_policy(config.share);
+  mesh.replication.layers.copies_bytes_max = config.share.memory_mb_max * kBytesPerMegabyte;
   for (const MeshInterfaceConfig& interface : config.mesh.interfaces) {
     mesh.replication.group_broadcast.push_back(interface.group_packets);
   }

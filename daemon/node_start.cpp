@@ -9,8 +9,6 @@
 namespace warren {
 namespace {
 
-constexpr std::uint64_t kBytesPerMegabyte = 1'000'000;
-
 std::string in_seconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f s", seconds);

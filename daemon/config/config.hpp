@@ -133,12 +133,15 @@ struct MeshSettings {
   friend bool operator==(const MeshSettings&, const MeshSettings&) = default;
 };
 
+inline constexpr std::uint64_t kBytesPerMegabyte = 1'000'000;
+
 enum class SharePolicyChoice : std::uint8_t { kEverything, kNear, kNothing };
 
 // Which blocks of the layers of others are copied here.
 struct ShareSettings {
   SharePolicyChoice policy = SharePolicyChoice::kEverything;
   double radius_m = 50.0;
+  std::uint32_t memory_mb_max = 2048;
   friend bool operator==(const ShareSettings&, const ShareSettings&) = default;
 };
 

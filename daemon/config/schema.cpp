@@ -209,6 +209,13 @@ constexpr std::array kRootKeys{
             Takes::kRestart,
             [](Config& c) -> Slot { return &c.share.radius_m; },
             {1.0, 10000.0}},
+    RootKey{
+        "share.memory_mb_max",
+        "Most that copies of others' layers take in memory, megabytes of 10^6 bytes. At it, they "
+        "grow no more until some have been packed; this node's own map is never held back.",
+        Takes::kRestart,
+        [](Config& c) -> Slot { return &c.share.memory_mb_max; },
+        {1.0, 1e6}},
     RootKey{"store.enabled",
             "Keep map, copies and messages in a file, and go on with them after a restart. false: "
             "a restart begins anew.",

@@ -69,6 +69,7 @@ class FleetMesh {
 
  private:
   static constexpr Duration kBetweenCommits = std::chrono::milliseconds(50);
+  static constexpr Duration kAfterRefusal = std::chrono::seconds(5);
   struct Told {
     Revision revision;
     std::uint32_t pose = 0;

@@ -62,7 +62,14 @@ void FleetMesh::add_moved(StoreBatch& rows) {
 void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
   storing_ = false;
   ++(stored ? batches_stored_ : batches_failed_);
-  if (stored) replication_.on_stored(MeshRunner::now(), batch);
+  if (stored) {
+    replication_.on_stored(MeshRunner::now(), batch);
+    self_backlog_.on_stored();
+  } else {
+    replication_.on_refused(batch);
+    self_backlog_.on_refused();
+    committed_ = MeshRunner::now() + kAfterRefusal;
+  }
   desk_.on_committed(MeshRunner::now(), stored);
   if (stored) speak(MeshRunner::now());
   turn_soon();

@@ -18,13 +18,22 @@ void SelfBacklog::add(SelfLayerWrite write) {
 
 std::vector<SelfLayerWrite> SelfBacklog::take() {
   std::vector<SelfLayerWrite> writes;
-  for (auto& [number, layer] : std::exchange(waiting_, {})) {
+  under_way_ = std::exchange(waiting_, {});
+  for (const auto& [number, layer] : under_way_) {
     SelfLayerWrite& write = writes.emplace_back();
     write.head = layer.head;
     write.blocks.reserve(layer.blocks.size());
-    for (auto& [ordinal, block] : layer.blocks) write.blocks.push_back(std::move(block));
+    for (const auto& [ordinal, block] : layer.blocks) write.blocks.push_back(block);
   }
   return writes;
+}
+
+// What has been added since is later, and stays.
+void SelfBacklog::on_refused() {
+  for (auto& [number, before] : std::exchange(under_way_, {})) {
+    const auto [layer, alone] = waiting_.try_emplace(number, before);
+    if (!alone) layer->second.blocks.merge(before.blocks);
+  }
 }
 
 }  // namespace warren

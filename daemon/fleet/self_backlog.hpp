@@ -14,7 +14,10 @@ class SelfBacklog {
  public:
   void add(SelfLayerWrite write);
   bool empty() const { return waiting_.empty(); }
+  // Taken until on_stored() or on_refused() says what became of it.
   std::vector<SelfLayerWrite> take();
+  void on_stored() { under_way_.clear(); }
+  void on_refused();
 
  private:
   struct Layer {
@@ -22,6 +25,7 @@ class SelfBacklog {
     std::map<BlockOrdinal, BlockState> blocks;
   };
   std::map<std::uint32_t, Layer> waiting_;        // by number
+  std::map<std::uint32_t, Layer> under_way_;      // likewise
   std::map<std::uint32_t, SelfLayerHead> taken_;  // as they were added last
 };
 

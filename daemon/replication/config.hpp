@@ -35,11 +35,16 @@ struct Timers {
   Duration penalty = std::chrono::seconds(60);
 };
 
+struct LayerLimits {
+  std::size_t layers_max = 128;                            // held at once, own ones included
+  std::size_t regions_max = 8192;                          // of a copy; each up to 512 blocks
+  std::size_t copies_bytes_max = std::size_t{2048} << 20;  // of all copies in memory
+};
+
 struct ReplicationConfig {
   MemberId self;
   SharePolicy share;
-  std::size_t layers_max = 128;              // held at once, own ones included
-  std::size_t regions_per_layer_max = 8192;  // of a copy; each up to 512 blocks
+  LayerLimits layers;
   std::size_t logs_max = 96;
   // Interfaces on which fresh packets go to all who hear them; as the endpoint is configured.
   std::vector<bool> group_broadcast;

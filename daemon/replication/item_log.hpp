@@ -59,6 +59,8 @@ class ItemLog {
   // Numbers whose state changed since the last call.
   std::set<ItemNumber> take_changed();
   bool has_changed() const { return !changed_.empty(); }
+  // What was taken came nowhere: all counts as changed again.
+  void change_all();
 
  private:
   void erase(ItemNumber number);

@@ -2,6 +2,7 @@
 #include "daemon/replication/layer_book.hpp"
 
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "core/layer/packet_header.hpp"
@@ -31,7 +32,7 @@ HeldLayer& LayerBook::insert(const LayerId& id) {
 }
 
 bool LayerBook::add_own(const Replica& layer) {
-  if (layers_.size() >= layers_max_ || by_id_.contains(layer.id())) return false;
+  if (layers_.size() >= limits_.layers_max || by_id_.contains(layer.id())) return false;
   assert(layer.holdings().intervals().size() == 1);
   HeldLayer& held = insert(layer.id());
   held.own = &layer;
@@ -41,7 +42,7 @@ bool LayerBook::add_own(const Replica& layer) {
 }
 
 bool LayerBook::restore(std::unique_ptr<Replica> copy) {
-  if (layers_.size() >= layers_max_ || by_id_.contains(copy->id())) return false;
+  if (layers_.size() >= limits_.layers_max || by_id_.contains(copy->id())) return false;
   HeldLayer& held = insert(copy->id());
   held.stored = copy->holdings();
   held.copy = std::move(copy);
@@ -53,7 +54,7 @@ Admission LayerBook::admit(const LayerId& id, Resolution resolution) {
     if (held->own != nullptr) return Admission::kOwnLayer;
     return held->copy->resolution() == resolution ? Admission::kKnown : Admission::kOtherResolution;
   }
-  if (layers_.size() >= layers_max_) {
+  if (layers_.size() >= limits_.layers_max) {
     ++layers_refused_;
     return Admission::kFull;
   }
@@ -78,10 +79,32 @@ LayerBook::Applied LayerBook::refuse(Refusal reason) {
   return {ApplyResult::kOtherLayer, reason, std::nullopt};
 }
 
+// Adding up takes longer than applying a packet, and a packet adds a few kilobytes at most.
+bool LayerBook::is_out_of_memory() {
+  constexpr std::uint32_t kPacketsBetween = 64;
+  if (applied_++ % kPacketsBetween == 0) {
+    out_of_memory_ = memory_bytes() >= limits_.copies_bytes_max;
+  }
+  return out_of_memory_;
+}
+
+void LayerBook::review_room(MeshTime now) {
+  constexpr auto kBetween = std::chrono::seconds(10);
+  if (!out_of_memory_ || (reviewed_ != MeshTime::min() && now < reviewed_ + kBetween)) return;
+  reviewed_ = now;
+  // Not at the first byte that is free: it would stop again at once.
+  if (memory_bytes() >= limits_.copies_bytes_max - limits_.copies_bytes_max / 8) return;
+  out_of_memory_ = false;
+  applied_ = 0;
+  for (const auto& layer : layers_) {
+    if (layer->copy) layer->full = layer->copy->regions() >= limits_.regions_max;
+  }
+}
+
 LayerBook::Applied LayerBook::apply(MeshTime now, HeldLayer& layer,
                                     std::span<const std::uint8_t> packet) {
   if (layer.own != nullptr) return refuse(Refusal::kOwnLayer);
-  if (layer.copy->regions() >= regions_max_) {
+  if (layer.copy->regions() >= limits_.regions_max || is_out_of_memory()) {
     layer.full = true;
     return refuse(Refusal::kNoRoom);
   }
@@ -175,6 +198,23 @@ std::vector<HeldLayer*> LayerBook::on_stored(std::uint64_t batch) {
     batched_.pop_front();
   }
   return moved;
+}
+
+void LayerBook::on_refused(std::uint64_t batch) {
+  for (auto batched = batched_.begin(); batched != batched_.end();) {
+    if (batched->batch != batch) {
+      ++batched;
+      continue;
+    }
+    HeldLayer& layer = *find(batched->layer);
+    if (layer.own != nullptr) {
+      layer.batched = layer.stored.at(0);
+    } else {
+      layer.forgotten = {KeyInterval{}};
+      note_touched(layer, {}, {});
+    }
+    batched = batched_.erase(batched);
+  }
 }
 
 std::size_t LayerBook::memory_bytes() const {

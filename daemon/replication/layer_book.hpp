@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/layer/replica.hpp"
+#include "daemon/replication/config.hpp"
 #include "daemon/replication/map_message.hpp"
 #include "daemon/replication/revision_clock.hpp"
 #include "transport/mesh_time.hpp"
@@ -58,11 +60,12 @@ enum class Admission : std::uint8_t { kKnown, kAdmitted, kOwnLayer, kOtherResolu
 enum class Refusal : std::uint8_t { kOwnLayer, kNoRoom };
 
 // The layers this node holds: its own, which are only read here, and copies. At most so many, each
-// copy with at most so many regions: a member may claim anything.
+// copy with at most so many regions, and all copies in so much memory: a member may claim anything.
 class LayerBook {
  public:
-  LayerBook(std::size_t layers_max, std::size_t regions_max)
-      : layers_max_(layers_max < kSlotsMax ? layers_max : kSlotsMax), regions_max_(regions_max) {}
+  explicit LayerBook(const LayerLimits& limits) : limits_(limits) {
+    limits_.layers_max = std::min<std::size_t>(limits_.layers_max, kSlotsMax);
+  }
 
   // The replica must outlive this. False: no room, or held already. What it holds now is stored.
   bool add_own(const Replica& layer);
@@ -81,6 +84,9 @@ class LayerBook {
   // Forgets these keys of a copy; false if its holdings do not bear it.
   bool forget(MeshTime now, HeldLayer& layer, const KeyInterval& keys);
 
+  // Copies that stopped for want of memory go on when others have been laid to rest since.
+  void review_room(MeshTime now);
+
   HeldLayer* find(const LayerId& id);
   const HeldLayer* find(const LayerId& id) const;
   HeldLayer* at(Slot slot) { return slot < layers_.size() ? layers_[slot].get() : nullptr; }
@@ -92,6 +98,8 @@ class LayerBook {
   std::vector<StoredLayer> take_batch(std::uint64_t batch);
   // Everything up to this batch is stored; returns the layers that this moves on.
   std::vector<HeldLayer*> on_stored(std::uint64_t batch);
+  // Nothing of this batch is stored: the next one says the whole of its layers again.
+  void on_refused(std::uint64_t batch);
 
   std::size_t memory_bytes() const;
   // Layers that were not admitted for want of room, and packets refused.
@@ -110,12 +118,15 @@ class LayerBook {
   bool is_behind_store(const HeldLayer& layer) const;
   void note_touched(HeldLayer& layer, const KeyInterval& keys, Revision from);
   Applied refuse(Refusal reason);
+  bool is_out_of_memory();
 
-  std::size_t layers_max_;
-  std::size_t regions_max_;
+  LayerLimits limits_;
   std::vector<std::unique_ptr<HeldLayer>> layers_;
   std::map<LayerId, HeldLayer*> by_id_;
   std::deque<Batched> batched_;
+  bool out_of_memory_ = false;
+  std::uint32_t applied_ = 0;  // packets since memory was looked at
+  MeshTime reviewed_ = MeshTime::min();
   std::uint64_t layers_refused_ = 0;
   std::array<std::uint64_t, 2> refused_{};
   std::array<std::uint64_t, kApplyResults> apply_counts_{};

@@ -197,6 +197,19 @@ bool LogBook::on_stored(MeshTime now, std::uint64_t batch) {
   return moved;
 }
 
+void LogBook::on_refused(std::uint64_t batch) {
+  for (auto batched = batched_.begin(); batched != batched_.end();) {
+    if (batched->batch != batch) {
+      ++batched;
+      continue;
+    }
+    std::vector<ItemNumber>& fresh = fresh_[batched->slot];
+    fresh.insert(fresh.begin(), batched->arrived.begin(), batched->arrived.end());
+    logs_[batched->slot]->log.change_all();
+    batched = batched_.erase(batched);
+  }
+}
+
 void LogBook::write_receipt(MeshTime now, HeldLog& held) {
   forget_void(held);
   const ReceiptItem receipt{held.log.id(), beyond(held.stored, held.untaken)};

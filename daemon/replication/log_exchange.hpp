@@ -45,6 +45,7 @@ class LogExchange {
   void on_parcel_delivered(const mesh::ParcelDelivered& delivered);
   void on_batch(std::uint64_t batch);
   void on_stored(MeshTime now, std::uint64_t batch);
+  void on_refused(std::uint64_t batch) { book_.on_refused(batch); }
 
   void advance(MeshTime now);
   MeshTime next_deadline() const;

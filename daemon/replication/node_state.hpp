@@ -30,7 +30,7 @@ struct NodeState {
   static constexpr std::size_t kPeersMax = 256;
 
   explicit NodeState(const ReplicationConfig& node_config)
-      : config(node_config), book(node_config.layers_max, node_config.regions_per_layer_max) {}
+      : config(node_config), book(node_config.layers) {}
 
   // None if there are too many.
   Peer* find_or_add(MemberId member) {

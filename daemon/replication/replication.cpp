@@ -143,6 +143,7 @@ void Replication::on_members(std::span<const mesh::Member> members) {
 void Replication::advance(MeshTime now) {
   node_.now = now;
   if (layers_placed_ != node_.book.layers().size()) take_poses();
+  node_.book.review_room(now);
   pulling_.advance();
   announcing_.advance();
   logs_.advance(now);
@@ -171,6 +172,11 @@ void Replication::on_stored(MeshTime now, std::uint64_t batch) {
   node_.now = now;
   for (const HeldLayer* const layer : node_.book.on_stored(batch)) serving_.on_news(*layer);
   logs_.on_stored(now, batch);
+}
+
+void Replication::on_refused(std::uint64_t batch) {
+  node_.book.on_refused(batch);
+  logs_.on_refused(batch);
 }
 
 void Replication::take_pose(const Item& item) {

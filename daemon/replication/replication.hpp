@@ -71,6 +71,8 @@ class Replication final : public mesh::MapSource {
   bool has_unstored() const { return node_.book.has_unstored() || logs_.book().has_unstored(); }
   StoreBatch take_batch();
   void on_stored(MeshTime now, std::uint64_t batch);
+  // The store would not have it: the next batch says it again.
+  void on_refused(std::uint64_t batch);
 
   const LayerBook& book() const { return node_.book; }
   LayerBook& book() { return node_.book; }

@@ -229,7 +229,7 @@ TEST_CASE("a copy that lies beyond reach at first comes in when it is moved with
   LayerChanges changes = changes_of({floor_block({0, 0, 0}, 1)});
   changes.origin = {std::int64_t{1} << 40, 0, 0};
   fleet.tick({&changes, 1});
-  Replica copy = far_layer({0.0, 0.0, 0.0});
+  Replica copy = far_layer(kFarOrigin.position_map(0.1) + Eigen::Vector3d(4.0, 0.0, 0.0));
   const auto added = fleet.loaded().add_copy(copy);
   REQUIRE(added.has_value());
   CHECK(added->out_of_reach);

@@ -55,4 +55,21 @@ TEST_CASE("a tick in which nothing changed is not stored, one in which only the 
   CHECK(backlog.take().at(0).blocks.empty());
 }
 
+TEST_CASE("what the store refused is taken again, but for blocks that changed since") {
+  SelfBacklog backlog;
+  backlog.add(write_of(0, 1, {block_at(1, 1), block_at(2, 1)}));
+  CHECK(backlog.take().size() == 1);
+  backlog.add(write_of(0, 2, {block_at(2, 2)}));
+  backlog.on_refused();
+  const auto writes = backlog.take();
+  REQUIRE(writes.size() == 1);
+  CHECK(writes[0].head.cursor == 2);
+  REQUIRE(writes[0].blocks.size() == 2);
+  CHECK(writes[0].blocks[0].changed_at == 1);
+  CHECK(writes[0].blocks[1].changed_at == 2);
+  backlog.on_stored();
+  backlog.on_refused();
+  CHECK(backlog.empty());
+}
+
 }  // namespace warren

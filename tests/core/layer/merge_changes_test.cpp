@@ -67,7 +67,9 @@ TEST_CASE("the codes of a block are those of its voxels, known to any layer or n
   MergeWorld world(701, MergeRule::kSafest, 2);
   for (int i = 0; i < kSteps; ++i) world.step();
   std::size_t known = 0;
-  for (const BlockKey& block : *world.map().blocks_changed_since(0)) {
+  const auto blocks = world.map().blocks_changed_since(0);
+  REQUIRE(blocks.has_value());
+  for (const BlockKey& block : *blocks) {
     const auto codes = world.map().codes(block);
     const VoxelKey first = first_voxel_of(block);
     for (std::uint32_t place = 0; place < kVoxelsPerBlock; ++place) {

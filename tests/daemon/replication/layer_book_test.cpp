@@ -12,18 +12,18 @@ using test::kLayer;
 
 struct Books {
   Replica origin{kLayer, kDefaultResolution};
-  LayerBook book{4, 8};
+  LayerBook book{{4, 8, 1 << 20}};
   HeldLayer& copy() {
     CHECK(book.admit(kLayer, kDefaultResolution) == Admission::kAdmitted);
     return *book.find(kLayer);
   }
-  void publish(std::uint32_t place) {
-    test::publish(origin, {block_with(100, place, VoxelCode::free())});
+  void publish(std::uint32_t place, BlockOrdinal block = 100) {
+    test::publish(origin, {block_with(block, place, VoxelCode::free())});
   }
 };
 
 TEST_CASE("layers are admitted up to the bound") {
-  LayerBook book(2, 8);
+  LayerBook book({2, 8, 1 << 20});
   CHECK(book.admit({1, 0, 5}, kDefaultResolution) == Admission::kAdmitted);
   CHECK(book.admit({1, 0, 5}, kDefaultResolution) == Admission::kKnown);
   CHECK(book.admit({1, 0, 5}, *Resolution::from_metres(0.2)) == Admission::kOtherResolution);
@@ -55,6 +55,38 @@ TEST_CASE("a copy takes no more regions than it may") {
   CHECK(copy.copy->regions() == 8);
 }
 
+TEST_CASE("copies take no more memory than they may, and go on when they have been laid to rest") {
+  Replica origin{kLayer, kDefaultResolution};
+  LayerBook book({4, 8192, 200'000});
+  CHECK(book.admit(kLayer, kDefaultResolution) == Admission::kAdmitted);
+  HeldLayer& copy = *book.find(kLayer);
+  std::uint64_t region = 0;
+  while (!copy.full && region < 8192) {
+    std::vector<CodedBlock> blocks;
+    for (BlockOrdinal i = 0; i < 20; ++i) {
+      blocks.push_back(block_with(region * 512 + i, 1, VoxelCode::free()));
+    }
+    test::publish(origin, blocks);
+    const auto revision = static_cast<std::uint32_t>(region);
+    book.apply({}, copy, encoded(origin, revision).bytes);
+    ++region;
+  }
+  REQUIRE(copy.full);
+  CHECK(book.memory_bytes() >= 200'000);
+  CHECK(book.memory_bytes() < 400'000);
+  CHECK(book.refused(Refusal::kNoRoom) == 1);
+  book.review_room(MeshTime{});
+  CHECK(copy.full);
+  CHECK(copy.copy->rest(copy.highest(), region) > 0);
+  copy.not_batched.clear();
+  book.review_room(MeshTime{} + std::chrono::seconds(5));
+  CHECK(copy.full);
+  book.review_room(MeshTime{} + std::chrono::seconds(11));
+  CHECK_FALSE(copy.full);
+  const auto missed = static_cast<std::uint32_t>(region - 1);
+  CHECK(book.apply({}, copy, encoded(origin, missed).bytes).result == ApplyResult::kApplied);
+}
+
 TEST_CASE("a revision that is not stored is not told") {
   Books books;
   REQUIRE(books.book.add_own(books.origin));
@@ -73,6 +105,41 @@ TEST_CASE("a revision that is not stored is not told") {
   CHECK(books.book.take_batch(2).size() == 1);
   books.book.on_stored(2);
   CHECK(own.may_be_told());
+}
+
+TEST_CASE("what the store refused is not told, and comes again with the next batch") {
+  Books books;
+  REQUIRE(books.book.add_own(books.origin));
+  HeldLayer& own = *books.book.find(kLayer);
+  books.publish(1);
+  CHECK(books.book.take_batch(1).at(0).blocks.size() == 1);
+  books.book.on_refused(1);
+  CHECK(books.book.has_unstored());
+  books.publish(2, 101);
+  CHECK(books.book.take_batch(2).at(0).blocks.size() == 2);
+  books.book.on_stored(2);
+  CHECK(own.may_be_told());
+  CHECK_FALSE(books.book.has_unstored());
+}
+
+TEST_CASE("a copy that the store refused is stored whole with the next batch") {
+  Books books;
+  HeldLayer& copy = books.copy();
+  books.publish(1);
+  books.book.apply({}, copy, encoded(books.origin, 0).bytes);
+  CHECK(books.book.take_batch(1).at(0).blocks.size() == 1);
+  books.book.on_stored(1);
+  books.publish(2, 101);
+  books.book.apply({}, copy, encoded(books.origin, 1).bytes);
+  (void)books.book.take_batch(2);
+  books.book.on_refused(2);
+  CHECK(copy.stored == Holdings(Revision{1}));
+  const auto batch = books.book.take_batch(3);
+  REQUIRE(batch.size() == 1);
+  CHECK(batch[0].forgotten.size() == 1);
+  CHECK(batch[0].blocks.size() == 2);
+  books.book.on_stored(3);
+  CHECK(copy.stored == copy.copy->holdings());
 }
 
 TEST_CASE("a block that changed and changed back is stored with its new revision") {
@@ -117,7 +184,7 @@ TEST_CASE("a restored copy goes on where its store was") {
   books.publish(1);
   books.book.apply({}, copy, encoded(books.origin, 0).bytes);
   const auto batch = books.book.take_batch(1);
-  LayerBook again(4, 8);
+  LayerBook again({4, 8, 1 << 20});
   REQUIRE(again.restore(
       std::make_unique<Replica>(kLayer, kDefaultResolution, batch[0].holdings, batch[0].blocks)));
   HeldLayer& restored = *again.find(kLayer);
