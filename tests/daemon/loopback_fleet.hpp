@@ -52,10 +52,12 @@ class Loopback {
   TemporaryDirectory directory_;
 };
 
-inline void take_scans(const RunningDaemon& daemon, std::uint64_t first, std::uint64_t count) {
+// Of a wall of so many points, which is the same every time.
+inline void take_scans(const RunningDaemon& daemon, std::uint64_t first, std::uint64_t count,
+                       std::size_t points = 1024) {
   TestClient client = greeted_client(daemon.ingest_socket());
   for (std::uint64_t i = first; i < first + count; ++i) {
-    REQUIRE(client.write(scan_frame(i, 1024)));
+    REQUIRE(client.write(scan_frame(i, points)));
     REQUIRE(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
   }
 }

@@ -89,7 +89,7 @@ TEST_CASE("after a restart a robot's layer goes on at its neighbours, from where
   RunningDaemon base(fleet.config("base", 0, {1}));
   {
     RunningDaemon robot(config);
-    take_scans(robot, 1, 2);
+    take_scans(robot, 1, 2, 512);
     wait_for(base, has_all_of("robot-1"));
   }
   RunningDaemon robot(config);

@@ -102,13 +102,42 @@ void Fleet::publish(MeshTime now, FleetNode& node) {
   node.next_tick = now + config_.tick;
   if (!writing_) return;
   Replica& layer = *node.own.back();
-  const auto blocks = node.walker->step(layer);
+  const auto sensed = node.walker->step(layer);
+  auto blocks = sensed;
+  if (config_.planted == Planted::kMergedIntoSelf) add_foreign(node, blocks);
   const Revision before = layer.holdings().at(0);
   if (layer.publish(blocks) == before) return;
+  check_own(layer, before, sensed);
   std::vector<BlockOrdinal> written;
   for (const CodedBlock& block : blocks) written.push_back(block.block);
   history_.record(layer, written);
   node.replication->on_published(now, layer.id());
+}
+
+// A block of each copy into the own layer.
+void Fleet::add_foreign(const FleetNode& node, std::vector<CodedBlock>& blocks) {
+  for (const auto& held : std::as_const(*node.replication).book().layers()) {
+    if (!held->copy) continue;
+    held->copy->for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock& found) {
+      const bool taken = std::any_of(blocks.begin(), blocks.end(),
+                                     [&](const auto& other) { return other.block == block; });
+      if (!taken) blocks.push_back({block, found.codes});
+      return taken;
+    });
+  }
+}
+
+// What a node writes into its own layer is what it sensed.
+void Fleet::check_own(const Replica& layer, Revision before,
+                      const std::vector<CodedBlock>& sensed) {
+  layer.for_each_changed({}, before, [&](BlockOrdinal block, const LayerBlock& now) {
+    const auto found = std::find_if(sensed.begin(), sensed.end(),
+                                    [&](const auto& other) { return other.block == block; });
+    if (found == sensed.end() || found->codes.unpack() != now.codes.unpack()) {
+      fail("the own layer of " + std::to_string(layer.id().origin) + " has what it never sensed");
+    }
+    return true;
+  });
 }
 
 void Fleet::commit(MeshTime now, FleetNode& node) {

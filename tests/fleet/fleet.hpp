@@ -26,6 +26,7 @@ enum class Planted : std::uint8_t {
   kRevisionReused,     // a revision leaves before it is stored, and a crash takes it
   kLostIsBelieved,     // a lost packet counts as acknowledged
   kStoreWithoutCodes,  // holdings are stored, some of the blocks are not
+  kMergedIntoSelf,     // what copies say gets into the own layer
 };
 
 struct FleetConfig {
@@ -105,6 +106,8 @@ class Fleet final : public mesh::sim::Upper {
   };
   void begin_layer(FleetNode& node, std::size_t index);
   void publish(MeshTime now, FleetNode& node);
+  static void add_foreign(const FleetNode& node, std::vector<CodedBlock>& blocks);
+  void check_own(const Replica& layer, Revision before, const std::vector<CodedBlock>& sensed);
   void commit(MeshTime now, FleetNode& node);
   void write(FleetNode& node);
   void run_commands(MeshTime now, FleetNode& node, mesh::Endpoint& endpoint);

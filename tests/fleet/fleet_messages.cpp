@@ -7,10 +7,16 @@
 
 namespace warren::fleet_sim {
 
+// Its application fetches a message as soon as it is there.
 void Fleet::take_items(FleetNode& node, std::size_t index) {
+  const MemberId self{static_cast<std::uint32_t>(index + 1)};
   while (const auto arrived = node.replication->poll_item()) {
     if (arrived->item.kind != replication::ItemKind::kMessage) continue;
     items_taken_[{arrived->log, arrived->number}].insert(index);
+    if (arrived->item.to != self) continue;
+    mesh::ByteRanges fetched;
+    fetched.add({arrived->number, arrived->number + 1ULL});
+    node.replication->log_book().take(now(), arrived->log, fetched);
   }
 }
 

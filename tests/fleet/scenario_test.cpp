@@ -10,7 +10,6 @@
 
 #include "tests/support/under_sanitizer.hpp"
 
-
 namespace warren::fleet_sim {
 namespace {
 
@@ -22,8 +21,9 @@ Outcome run(std::uint64_t seed) {
   std::string all;
   for (const auto& failure : outcome.failures) all += "\n  " + failure;
   CHECK_MESSAGE(outcome.failures.empty(), "WARREN_FLEET_SEED=", seed, ": ", outcome.story, all);
-  // Where every third packet is lost, links come and go even in peace, and ways with them.
-  const std::uint64_t quiet = outcome.loss < 0.1 ? 0 : 4000;
+  // Where packets are lost, links come and go even in peace, and ways with them: at times a word is
+  // said about that, and where every third packet is lost, many.
+  const std::uint64_t quiet = outcome.loss < 0.05 ? 0 : outcome.loss < 0.1 ? 100 : 4000;
   CHECK_MESSAGE(outcome.quiet_bytes <= quiet, "WARREN_FLEET_SEED=", seed,
                 " is not quiet: ", outcome.quiet_bytes, " bytes; ", outcome.story);
   return outcome;
@@ -69,11 +69,12 @@ TEST_CASE("a planted fault is noticed") {
   };
   for (const Case& fault : {Case{"a widened claim", Planted::kClaimWidened, 10},
                             Case{"a revision reused", Planted::kRevisionReused, 40},
+                            Case{"a merge into the own layer", Planted::kMergedIntoSelf, 10},
                             Case{"a lost packet believed", Planted::kLostIsBelieved, 10},
                             Case{"a store that lacks a block", Planted::kStoreWithoutCodes, 40}}) {
     const std::size_t found = noticed(fault.planted, fault.seeds);
-    MESSAGE(fault.name, ": noticed by ", found, " of ", fault.seeds, " seeds");
-    CHECK_MESSAGE(found > 0, fault.name);
+    MESSAGE(std::string(fault.name), ": noticed by ", found, " of ", fault.seeds, " seeds");
+    CHECK_MESSAGE(found > 0, std::string(fault.name));
   }
 }
 }  // namespace

@@ -57,13 +57,13 @@ TEST_CASE("a copy takes no more regions than it may") {
 
 TEST_CASE("copies take no more memory than they may, and go on when they have been laid to rest") {
   Replica origin{kLayer, kDefaultResolution};
-  LayerBook book({4, 8192, 200'000});
+  LayerBook book({4, 8192, 500'000});
   CHECK(book.admit(kLayer, kDefaultResolution) == Admission::kAdmitted);
   HeldLayer& copy = *book.find(kLayer);
   std::uint64_t region = 0;
   while (!copy.full && region < 8192) {
     std::vector<CodedBlock> blocks;
-    for (BlockOrdinal i = 0; i < 20; ++i) {
+    for (BlockOrdinal i = 0; i < 4; ++i) {
       blocks.push_back(block_with(region * 512 + i, 1, VoxelCode::free()));
     }
     test::publish(origin, blocks);
@@ -72,8 +72,8 @@ TEST_CASE("copies take no more memory than they may, and go on when they have be
     ++region;
   }
   REQUIRE(copy.full);
-  CHECK(book.memory_bytes() >= 200'000);
-  CHECK(book.memory_bytes() < 400'000);
+  CHECK(book.memory_bytes() >= 500'000);
+  CHECK(book.memory_bytes() < 1'000'000);
   CHECK(book.refused(Refusal::kNoRoom) == 1);
   book.review_room(MeshTime{});
   CHECK(copy.full);
