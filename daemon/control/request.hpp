@@ -112,7 +112,8 @@ using ControlRequest =
     std::variant<StatusQuestion, MapInfoQuestion, ConfigQuestion, SaveOrder, GroundQuestion,
                  LayerDiffQuestion, LoadOrder, FlushOrder, RetractOrder, RestoreOrder, MoveOrder,
                  CellsQuestion, FleetStatusQuestion, MessageSendOrder, MessageWatchQuestion,
-                 FleetOrder, TrajectoryQuestion, AlignEstimateQuestion, BlocksQuestion, RaysQuestion>;
+                 FleetOrder, TrajectoryQuestion, AlignEstimateQuestion, BlocksQuestion,
+                 RaysQuestion>;
 
 // The error says what is wrong with the request.
 tl::expected<ControlRequest, std::string> decode_control_request(std::span<const std::byte> bytes);

@@ -96,8 +96,8 @@ tl::expected<Layer*, std::string> LayeredMap::open_layer(const Scan& scan,
   }
   // A copy leaves the scratch memory of integration behind: frozen layers need none.
   if (!layers_.empty()) layers_.back()->voxels = SelfMap(layers_.back()->voxels);
-  layers_.push_back(std::make_unique<Layer>(
-      Layer{next_number_, frame_epoch, *origin, SelfMap(config_), 0, T_fleet_map_, scan.gravity_map}));
+  layers_.push_back(std::make_unique<Layer>(Layer{
+      next_number_, frame_epoch, *origin, SelfMap(config_), 0, T_fleet_map_, scan.gravity_map}));
   ++next_number_;
   return layers_.back().get();
 }
@@ -129,9 +129,9 @@ tl::expected<GroundAnswer, std::string> LayeredMap::ground(const GroundQuestion&
 void LayeredMap::restore(StoredMap stored) {
   next_number_ = stored.next_number;
   for (auto& [head, voxels] : stored.layers) {
-    layers_.push_back(std::make_unique<Layer>(Layer{head.number, head.frame_epoch, head.origin,
-                                                    std::move(voxels), head.scans, head.T_fleet_map,
-                                                    head.gravity_map}));
+    layers_.push_back(
+        std::make_unique<Layer>(Layer{head.number, head.frame_epoch, head.origin, std::move(voxels),
+                                      head.scans, head.T_fleet_map, head.gravity_map}));
     layers_.back()->stored = head.cursor;
   }
 }

@@ -25,7 +25,7 @@ inline constexpr const char* kNoMapYet = "there is no map yet: no scan has been 
 struct MappingConfig {
   SelfMapConfig map;
   TerrainConfig terrain = TerrainConfig::robust();
-  Pose T_fleet_map{};  // of a layer that is opened, until a pose update comes
+  Pose T_fleet_map{};      // of a layer that is opened, until a pose update comes
   bool is_stored = false;  // then what is handed over has what a store keeps, too
 };
 

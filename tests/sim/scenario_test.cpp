@@ -9,7 +9,6 @@
 
 #include "tests/support/under_sanitizer.hpp"
 
-
 namespace warren::mesh::sim {
 namespace {
 
