@@ -182,7 +182,10 @@ void Scenario::plan_strangers() {
     fleet_.mesh().at(when, [=, this] {
       if (recorded_.empty()) return;
       auto bytes = recorded_[draw % recorded_.size()];
-      if (draw >> 60 < 8) bytes[draw % bytes.size()] ^= 1U << (draw >> 40) % 8;
+      if (draw >> 60 < 8) {
+        std::uint8_t& byte = bytes[draw % bytes.size()];
+        byte = static_cast<std::uint8_t>(byte ^ 1U << (draw >> 40) % 8);
+      }
       fleet_.mesh().inject(to, 0, {{}, 7700}, std::move(bytes));
     });
   }
