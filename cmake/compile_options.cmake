@@ -27,6 +27,8 @@ endif()
 if(WARREN_SANITIZE)
   target_compile_options(warren_options INTERFACE -fsanitize=${WARREN_SANITIZE} -fno-sanitize-recover=all)
   target_link_options(warren_options INTERFACE -fsanitize=${WARREN_SANITIZE})
+  # Under ASan Eigen would align by itself what it allocates, and PCL's libraries free it as if malloc had.
+  target_compile_definitions(warren_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     target_compile_options(warren_options INTERFACE -fno-sanitize=function)
   elseif(WARREN_SANITIZE MATCHES "thread")

@@ -27,7 +27,7 @@ constexpr BlockOrdinal block_of_row(std::int64_t row) {
 class LayerTable {
  public:
   explicit LayerTable(Database& database)
-      : database_(database), heads_(database, "layer"), blocks_(database, "layer_block") {}
+      : heads_(database, "layer"), blocks_(database, "layer_block") {}
 
   // The heads, read anew.
   void load();
@@ -61,7 +61,6 @@ class LayerTable {
     return evicted_.contains(id) || evicting_.contains(id);
   }
 
-  Database& database_;
   RowTable heads_;
   RowTable blocks_;
   std::map<LayerId, Entry> entries_;

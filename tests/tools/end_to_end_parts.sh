@@ -50,6 +50,9 @@ stop_daemon() {
   daemon=
 }
 
+# The next life of the daemon begins with nothing.
+forget_store() { rm -f "$work"/warren.db*; }
+
 simulate() { # SUBCOMMAND SWEEPS [ARG..]
   local subcommand=$1 sweeps=$2
   "$bin/warren-sim" "$subcommand" --world room --seed 3 --seconds "$((sweeps / 10)).$((sweeps % 10))5" \

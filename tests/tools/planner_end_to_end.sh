@@ -41,10 +41,10 @@ case_rays_are_asked_about() {
   wait_until "two ticks" ticked "$(($(published_field ticks) + 2))"
   "${ctl[@]}" layer flush >/dev/null
   for source in "" --merge; do
-    "${ctl[@]}" query ray 0 0 0  0 0 -1 $source --through-unknown >"$work/down"
+    "${ctl[@]}" query ray 2 0 0.5  0 0 -1 $source --through-unknown >"$work/down"
     grep -qE '^occupied at [0-9.]+ m, the voxel from .*, cost ' "$work/down" || fail "$(cat "$work/down")"
   done
-  "${ctl[@]}" query ray 0 0 0  0 0 -1 --max-range 0.1 | grep -qE 'nothing within 0.10|unknown at' || fail "saw the floor"
+  "${ctl[@]}" query ray 2 0 0.5  0 0 -1 --max-range 0.1 | grep -qE 'nothing within 0.10|unknown at' || fail "saw the floor"
   "${ctl[@]}" query ray 900 0 0  0 0 1 --json >"$work/far.json"
   "$python" -c 'import json,sys; e=json.load(open(sys.argv[1]))["ends"]; sys.exit(e[0]["state"] != "unknown")' \
     "$work/far.json" || fail "$(cat "$work/far.json")"
