@@ -24,9 +24,12 @@ WarrendCommand parse_command_line(int argc, char** argv) {
                                      "Print the configuration in FILE, or the defaults, with "
                                      "every key; exit")
                           ->expected(0, 1);
-  bool sample_wanted = false;
-  auto* const sample = app.add_flag("--print-sample", sample_wanted,
-                                    "Print the defaults with a comment for every key; exit");
+  std::string role = "robot";
+  auto* const sample =
+      app.add_option("--print-sample", role,
+                     "Print the defaults of a robot or a base with a comment for every key; exit")
+          ->expected(0, 1)
+          ->check(CLI::IsMember({"robot", "base"}));
   app.set_version_flag("--version", std::string("warrend ") + WARREN_VERSION);
   check->excludes(print)->excludes(sample);
   print->excludes(sample);
@@ -37,7 +40,7 @@ WarrendCommand parse_command_line(int argc, char** argv) {
   }
   if (check->count() > 0) return CheckCommand{checked};
   if (print->count() > 0) return PrintConfigCommand{printed};
-  if (sample_wanted) return PrintSampleCommand{};
+  if (sample->count() > 0) return PrintSampleCommand{role == "base"};
   return RunCommand{config};
 }
 

@@ -15,7 +15,9 @@ struct CheckCommand {
 struct PrintConfigCommand {
   std::filesystem::path config;  // empty: the defaults
 };
-struct PrintSampleCommand {};
+struct PrintSampleCommand {
+  bool of_base = false;
+};
 struct ExitCommand {  // all is said: help, version, or wrong usage
   int code = 0;
 };

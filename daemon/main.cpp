@@ -57,8 +57,8 @@ int execute(const RunCommand& command) {
 
 int execute(const CheckCommand& command) { return check_config_command(command.config); }
 int execute(const PrintConfigCommand& command) { return print_config_command(command.config); }
-int execute(const PrintSampleCommand&) {
-  std::cout << print_sample(Config{});
+int execute(const PrintSampleCommand& command) {
+  std::cout << print_sample(command.of_base ? Config::of_base() : Config{});
   return 0;
 }
 int execute(const ExitCommand& command) { return command.code; }

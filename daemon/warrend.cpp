@@ -7,9 +7,10 @@
 
 #include "daemon/config/load.hpp"
 #include "daemon/config/print.hpp"
-#include "daemon/fleet/node_id.hpp"
+#include "daemon/fleet_setup.hpp"
 #include "daemon/ingest/header.hpp"
 #include "daemon/log.hpp"
+#include "daemon/node_start.hpp"
 
 namespace warren {
 namespace {
@@ -20,15 +21,26 @@ SensorFilters filters_of(const Config& config) {
   return filters;
 }
 
-FleetMapConfig fleet_config(const Config& config) {
-  // The config allows no resolution that a layer cannot have.
-  return {node_id(config.node.name), Resolution::from_metres(config.map.resolution_m).value(),
-          config.layer.resolved(), config.layer.rest_after_ticks()};
+MappingConfig mapping_config(const Config& config) {
+  return {config.self_map(), config.terrain.resolved(), config.node.fleet_T_map.pose(),
+          config.store.enabled};
 }
 
-std::chrono::nanoseconds tick_of(const Config& config) {
-  const std::chrono::duration<double> tick{config.layer.tick_s};
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(tick);
+// A base takes no scans.
+tl::expected<std::optional<SocketFile>, std::string> listen_for_scans(const Config& config) {
+  if (config.node.role == Role::kBase) return std::nullopt;
+  auto socket = SocketFile::listen(config.sockets.ingest);
+  if (!socket) return tl::unexpected(socket.error());
+  return std::optional<SocketFile>(std::move(*socket));
+}
+
+std::string greeting(const Config& config) {
+  std::string text = config.node.name + ": ready";
+  if (config.node.role == Role::kRobot) text += ", scans to " + config.sockets.ingest.path.string();
+  if (!config.mesh.is_on()) return text + ", alone: the config names no mesh interface";
+  text += ", mesh on";
+  for (const MeshInterfaceConfig& interface : config.mesh.interfaces) text += " " + interface.name;
+  return text;
 }
 
 }  // namespace
@@ -37,24 +49,30 @@ tl::expected<std::unique_ptr<Warrend>, std::string> Warrend::start(
     asio::io_context& io, const Config& config, const std::filesystem::path& config_file,
     Dependencies dependencies) {
   silence_protobuf();
-  auto ingest = SocketFile::listen(config.sockets.ingest);
+  const auto fleet = fleet_config_of(config);
+  if (!fleet) return tl::unexpected(fleet.error());
+  auto ingest = listen_for_scans(config);
   if (!ingest) return tl::unexpected(ingest.error());
   auto control = SocketFile::listen(config.sockets.control);
   if (!control) return tl::unexpected(control.error());
-  std::unique_ptr<Warrend> warrend(new Warrend(io, config, config_file, std::move(*ingest),
-                                               std::move(*control), std::move(dependencies)));
+  auto node = start_node(config);
+  if (!node) return tl::unexpected(node.error());
+  std::unique_ptr<Warrend> warrend(new Warrend(io, config, config_file, *fleet, std::move(*node),
+                                               std::move(*ingest), std::move(*control),
+                                               std::move(dependencies)));
   warrend->ingest_.start();
   warrend->control_.start();
   warrend->fleet_.start();
   const auto& watchdog_time = warrend->dependencies_.watchdog_time;
   if (watchdog_time) warrend->watchdog_.start(*watchdog_time);
   warrend->dependencies_.notify("READY=1\nSTATUS=Mapping");
-  log_info(config.node.name + ": ready, scans to " + config.sockets.ingest.path.string());
+  log_info(greeting(config));
   return warrend;
 }
 
 Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::path config_file,
-                 SocketFile ingest_socket, SocketFile control_socket, Dependencies dependencies)
+                 const FleetConfig& fleet, NodeStart node, std::optional<SocketFile> ingest_socket,
+                 SocketFile control_socket, Dependencies dependencies)
     : io_(io),
       running_(asio::make_work_guard(io)),
       config_(config),
@@ -62,16 +80,18 @@ Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::pa
       dependencies_(std::move(dependencies)),
       ingest_socket_(std::move(ingest_socket)),
       control_socket_(std::move(control_socket)),
-      fleet_(io, mapper_, fleet_config(config), tick_of(config)),
-      mapper_({config.self_map(), config.terrain.resolved()}, filters_of(config),
-              config.ingest.queue_scans, mapper_dependencies()),
-      ingest_(io, ingest_socket_.release_descriptor(), config, mapper_),
+      fleet_(io, mapper_, fleet, std::move(node.fleet)),
+      mapper_(mapping_config(config), filters_of(config), config.ingest.queue_scans,
+              mapper_dependencies(), std::move(node.map)),
+      ingest_(io,
+              ingest_socket_ ? std::optional(ingest_socket_->release_descriptor()) : std::nullopt,
+              config, mapper_),
       service_(service_dependencies()),
       control_(io, control_socket_.release_descriptor(),
                [this](const ControlRequest& request, const ControlService::Respond& respond) {
-                 service_.handle(request, respond);
+                 return service_.handle(request, respond);
                }),
-      watchdog_(io, mapper_, [this] { dependencies_.notify("WATCHDOG=1"); }) {}
+      watchdog_(io, mapper_, fleet_, [this] { dependencies_.notify("WATCHDOG=1"); }) {}
 
 Mapper::Dependencies Warrend::mapper_dependencies() {
   const auto deliver = [this](const QueuedScan& scan, const ScanReceipt& receipt) {

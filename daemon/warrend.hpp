@@ -17,6 +17,7 @@
 #include "daemon/fleet/fleet.hpp"
 #include "daemon/ingest/server.hpp"
 #include "daemon/mapper/mapper.hpp"
+#include "daemon/node_start.hpp"
 #include "daemon/socket_file.hpp"
 #include "daemon/watchdog.hpp"
 
@@ -40,8 +41,8 @@ class Warrend {
       asio::io_context& io, const Config& config, const std::filesystem::path& config_file,
       Dependencies dependencies);
 
-  // Any thread. Stops taking scans, integrates and answers what has arrived, then lets
-  // io_context::run() return.
+  // Any thread. Stops taking scans, integrates and answers what has arrived, gives neighbours a
+  // moment to take it, then lets io_context::run() return.
   void request_stop();
   // Any thread. Reads the config file again and takes over what a running daemon can; a faulty
   // file changes nothing.
@@ -49,7 +50,8 @@ class Warrend {
 
  private:
   Warrend(asio::io_context& io, const Config& config, std::filesystem::path config_file,
-          SocketFile ingest_socket, SocketFile control_socket, Dependencies dependencies);
+          const FleetConfig& fleet, NodeStart node, std::optional<SocketFile> ingest_socket,
+          SocketFile control_socket, Dependencies dependencies);
 
   Mapper::Dependencies mapper_dependencies();
   ControlService::Dependencies service_dependencies();
@@ -65,7 +67,7 @@ class Warrend {
   Config config_;
   std::filesystem::path config_file_;
   Dependencies dependencies_;
-  SocketFile ingest_socket_;
+  std::optional<SocketFile> ingest_socket_;
   SocketFile control_socket_;
   bool stopping_ = false;
   Fleet fleet_;  // outlives the mapping thread, which hands over to it

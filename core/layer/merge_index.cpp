@@ -9,6 +9,15 @@ namespace {
 
 VoxelKey region_key_of(const BlockKey& block) { return {block.x >> 3, block.y >> 3, block.z >> 3}; }
 
+void sort_in_morton_order(std::vector<MergeIndex::Region*>& regions) {
+  const auto order = [](const MergeIndex::Region* region) {
+    const VoxelKey& key = region->key;
+    return morton_of({key.x * kRegionEdge, key.y * kRegionEdge, key.z * kRegionEdge});
+  };
+  std::sort(regions.begin(), regions.end(),
+            [&](const auto* a, const auto* b) { return order(a) < order(b); });
+}
+
 }  // namespace
 
 void MergeIndex::touch(const BlockKey& block) {
@@ -49,12 +58,16 @@ std::vector<MergeIndex::Region*> MergeIndex::regions_in_order() const {
   std::vector<Region*> regions;
   regions.reserve(regions_.size());
   for (const auto& region : regions_) regions.push_back(region.get());
-  const auto order = [](const Region* region) {
-    const VoxelKey& key = region->key;
-    return morton_of({key.x * kRegionEdge, key.y * kRegionEdge, key.z * kRegionEdge});
-  };
-  std::sort(regions.begin(), regions.end(),
-            [&](const Region* a, const Region* b) { return order(a) < order(b); });
+  sort_in_morton_order(regions);
+  return regions;
+}
+
+std::vector<MergeIndex::Region*> MergeIndex::regions_changed_after(std::uint64_t number) const {
+  std::vector<Region*> regions;
+  for (const auto& region : regions_) {
+    if (region->changed_at > number) regions.push_back(region.get());
+  }
+  sort_in_morton_order(regions);
   return regions;
 }
 

@@ -99,8 +99,9 @@ class MergeIndex {
   std::size_t forget_untouched();
   std::size_t untouched_regions() const { return untouched_regions_; }
 
-  // In Morton order.
+  // In Morton order: all, or those that changed after the change of this number.
   std::vector<Region*> regions_in_order() const;
+  std::vector<Region*> regions_changed_after(std::uint64_t number) const;
   std::size_t memory_bytes() const;
 
  private:

@@ -30,8 +30,8 @@ MergeResult MergeMap::update_self(std::uint32_t number, std::span<const CodedBlo
   if (source == nullptr) return MergeResult::kUnknownLayer;
   begin_change();
   for (const CodedBlock& block : blocks) {
-    source->keep(block);
-    if (source->counts()) update_block(*source, block.block);
+    const bool differs = source->keep(block);
+    if (differs && source->counts()) update_block(*source, block.block);
   }
   return MergeResult::kDone;
 }

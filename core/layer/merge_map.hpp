@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -103,6 +104,14 @@ class MergeMap {
   // is too long ago: begin anew with all blocks. cursor() is the number of the last change.
   std::optional<std::vector<BlockKey>> blocks_changed_since(std::uint64_t cursor) const;
   std::uint64_t cursor() const { return changes_; }
+  bool remembers(std::uint64_t cursor) const { return cursor == 0 || cursor >= forgotten_until_; }
+  // The same for those in the box, from `first` on: calls visit(key) as long as it returns true.
+  // Precondition: remembers(cursor).
+  using BlockVisitor = std::function<bool(const BlockKey&)>;
+  void for_each_changed_block(std::uint64_t cursor, const BlockBox& box, BlockOrdinal first,
+                              const BlockVisitor& visit) const;
+  // All codes of a block, in Morton order.
+  std::array<VoxelCode, kVoxelsPerBlock> codes(const BlockKey& block);
 
   // Blocks of layers that lie outside the key space, wholly or in part.
   std::uint64_t blocks_outside_key_space() const { return blocks_outside_; }

@@ -84,19 +84,6 @@ void MergeMap::for_each_known_voxel(const KeyBox& box, const VoxelVisitor& visit
   }
 }
 
-std::optional<std::vector<BlockKey>> MergeMap::blocks_changed_since(std::uint64_t cursor) const {
-  if (cursor != 0 && cursor < forgotten_until_) return std::nullopt;
-  std::vector<BlockKey> changed;
-  for (const MergeIndex::Region* const region : index_.regions_in_order()) {
-    if (region->changed_at <= cursor) continue;
-    for (std::uint32_t slot = 0; slot < kBlocksPerRegion; ++slot) {
-      if (region->touches[slot].changed_at <= cursor) continue;
-      changed.push_back(block_in_region(region->key, slot));
-    }
-  }
-  return changed;
-}
-
 void MergeMap::derive(MergeEntry& entry, const BlockKey& block) {
   if (!index_.is_touched(block)) return entry.set_uniform({});
   const MergedBlock merged = merge(block);

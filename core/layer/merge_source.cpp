@@ -40,13 +40,14 @@ MergeSource::MergeSource(const LayerId& id, const Replica& replica, double resol
                          const MergePlacement& placement)
     : id_{false, id}, resolution_m_(resolution_m), placement_(placement), replica_(&replica) {}
 
-void MergeSource::keep(const CodedBlock& block) {
+bool MergeSource::keep(const CodedBlock& block) {
   assert(replica_ == nullptr);
-  if (block.codes.empty()) {
-    own_blocks_.erase(block.block);
-  } else {
-    own_blocks_[block.block] = block.codes;
-  }
+  if (block.codes.empty()) return own_blocks_.erase(block.block) > 0;
+  const auto [kept, is_new] = own_blocks_.try_emplace(block.block, block.codes);
+  if (is_new) return true;
+  if (kept->second == block.codes) return false;
+  kept->second = block.codes;
+  return true;
 }
 
 bool MergeSource::has_codes(BlockOrdinal block) const {

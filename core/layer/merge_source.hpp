@@ -46,8 +46,9 @@ class MergeSource {
   bool counts() const { return counts_; }
   void set_counts(bool counts) { counts_ = counts; }
 
-  // Only for a layer of this node.
-  void keep(const CodedBlock& block);
+  // Only for a layer of this node. Whether it had other codes before: most blocks that a scan
+  // touches keep theirs.
+  bool keep(const CodedBlock& block);
 
   bool has_codes(BlockOrdinal block) const;
   // Blocks with codes, as the merge-map was last told.

@@ -25,6 +25,12 @@ VoxelMask places_that_differ(const BlockCodes& a, const BlockCodes& b) {
   return differ;
 }
 
+std::uint64_t count(const VoxelMask& mask) {
+  std::uint64_t voxels = 0;
+  for (const std::uint64_t cell : mask) voxels += static_cast<std::uint64_t>(std::popcount(cell));
+  return voxels;
+}
+
 // Telling of a free voxel that did not change is allowed, and cheaper if it makes a whole 2x2x2
 // cube or 4x4x4 cell uniform.
 void fill_up_free(VoxelMask& told, const VoxelMask& free) {
@@ -107,7 +113,9 @@ template <typename Change>
 void Replica::change(BlockOrdinal ordinal, Change&& change) {
   wake(region_of(ordinal));
   blocks_.change(ordinal, [&](LayerBlock& block) {
+    known_voxels_ -= count(block.codes.known());
     change(block);
+    known_voxels_ += count(block.codes.known());
     digest_.update(ordinal, block.codes);
   });
 }
@@ -243,12 +251,11 @@ bool Replica::apply(const BlockDiff& diff) {
 bool Replica::forget(const KeyInterval& keys) {
   if (!holdings_.forget(keys)) return false;
   std::vector<BlockOrdinal> changed;
-  if (listener_) {
-    blocks_.for_each_changed(keys, {}, [&](BlockOrdinal block, const LayerBlock& found) {
-      if (!found.codes.empty()) changed.push_back(block);
-      return true;
-    });
-  }
+  blocks_.for_each_changed(keys, {}, [&](BlockOrdinal block, const LayerBlock& found) {
+    known_voxels_ -= count(found.codes.known());
+    if (listener_ && !found.codes.empty()) changed.push_back(block);
+    return true;
+  });
   // What is left of the regions at either end must have its hashes.
   for (const BlockOrdinal bound : {keys.first, keys.end - 1}) {
     const KeyInterval region = keys_of_region(region_of(bound));

@@ -59,6 +59,7 @@ class Replica {
   LayerPose& pose() { return pose_; }
   const LayerPose& pose() const { return pose_; }
   const Holdings& holdings() const { return holdings_; }
+  std::uint64_t known_voxels() const { return known_voxels_; }
   // Its root and regions; for their blocks ask digest_blocks().
   const LayerDigest& digest() const { return digest_; }
   std::vector<LayerDigest::Entry> digest_blocks(RegionOrdinal region) const;
@@ -133,6 +134,7 @@ class Replica {
   Holdings holdings_;
   LayerBlocks blocks_;
   LayerDigest digest_;
+  std::uint64_t known_voxels_ = 0;
   std::array<std::uint64_t, kApplyResults> apply_counts_{};
   std::function<void(BlockOrdinal)> listener_;
 };

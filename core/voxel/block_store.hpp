@@ -17,6 +17,8 @@
 
 namespace warren {
 
+struct BlockState;
+
 enum class VoxelState : std::uint8_t { kUnknown, kFree, kOccupied };
 
 inline constexpr std::size_t kCellsPerBlock = 8;      // of 4x4x4 voxels
@@ -109,6 +111,11 @@ class BlockStore {
                              std::array<FusedCost, 64>& costs) const;
   // Voxels at the free clamp keep no cost: what stood there has gone.
   void forget_costs_at_clamp(Block& block);
+
+  // All that is known of the block, to be imported elsewhere; nothing if nothing is.
+  std::optional<BlockState> export_block(const BlockKey& key) const;
+  // Preconditions: the state is sound, and nothing is known of its block.
+  void import_block(const BlockState& state);
 
   LogOddsCells& values() { return values_; }
   const LogOddsCells& values() const { return values_; }

@@ -203,6 +203,24 @@ std::vector<BlockKey> SelfMap::blocks_changed_since(std::uint32_t cursor) const 
   return changed;
 }
 
+bool SelfMap::import_block(const BlockState& state) {
+  if (!state.is_sound() || store_.slot_of(state.key) != kAbsentBlock) return false;
+  const std::int16_t* next = state.values.data();
+  bool could_be = true;
+  for (std::size_t cell = 0; cell < kCellsPerBlock; ++cell) {
+    for_each_bit(state.stored(cell), [&](std::uint32_t bit) {
+      const std::int16_t value = *next++;
+      const bool occupied = (state.occupied[cell] >> bit & 1) != 0;
+      could_be =
+          could_be && model_.minimum < value && value <= model_.maximum && occupied == (value >= 0);
+    });
+  }
+  if (!could_be) return false;
+  store_.import_block(state);
+  scans_ = std::max(scans_, state.changed_at);
+  return true;
+}
+
 std::size_t SelfMap::memory_bytes() const {
   return store_.memory_bytes() + scratch_->marker.memory_bytes() + scratch_->path.memory_bytes() +
          scratch_->end_centres.capacity() * sizeof(Point3f) + sizeof(Scratch);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/voxel/block_state.hpp"
 #include "core/voxel/block_store.hpp"
 #include "core/voxel/cost_commit.hpp"
 #include "core/voxel/key.hpp"
@@ -94,6 +96,16 @@ class SelfMap {
   // change costs nothing but a look at a number per region.
   std::vector<BlockKey> blocks_changed_since(std::uint32_t cursor) const;
   std::uint32_t cursor() const { return scans_; }
+
+  // All that is known of a block, to the bit; nothing if nothing is.
+  std::optional<BlockState> export_block(const BlockKey& key) const {
+    return store_.export_block(key);
+  }
+  // Takes in what a map of the same config exported. False, and nothing changes, if no such map
+  // could have, or something is known of the block already: what a store says is not trusted.
+  bool import_block(const BlockState& state);
+  // Goes on numbering scans from here, if that is above cursor().
+  void import_cursor(std::uint32_t cursor) { scans_ = std::max(scans_, cursor); }
 
   MapCounts counts() const;
   CostCounts cost_counts() const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace warren {
 namespace {
@@ -50,6 +51,20 @@ PublishingConfig LayerSettings::resolved() const {
 }
 
 std::uint32_t LayerSettings::rest_after_ticks() const { return ticks_in(rest_after_s, tick_s); }
+
+Pose SurveyedPose::pose() const {
+  const double yaw_rad = yaw_deg * std::numbers::pi / 180.0;
+  return {{x_m, y_m, z_m},
+          Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()))};
+}
+
+Config Config::of_base() {
+  Config config;
+  config.node.name = "base";
+  config.node.role = Role::kBase;
+  config.sensors.clear();
+  return config;
+}
 
 SelfMapConfig Config::self_map() const {
   SelfMapConfig config{

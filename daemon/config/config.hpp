@@ -14,10 +14,11 @@
 #include "core/voxel/scan.hpp"
 #include "core/voxel/self_map.hpp"
 #include "daemon/log.hpp"
+#include "transport/mesh_address.hpp"
 
 namespace warren {
 
-enum class Role : std::uint8_t { kRobot };
+enum class Role : std::uint8_t { kRobot, kBase };
 enum class SensorModelPreset : std::uint8_t { kWarren, kOctomap, kField, kCustom };
 
 // Permission bits of a socket file.
@@ -106,11 +107,69 @@ struct LogConfig {
   friend bool operator==(const LogConfig&, const LogConfig&) = default;
 };
 
+// A radio or cable of the mesh; the units of its numbers are those of the system.
+struct MeshInterfaceConfig {
+  std::string name = "wlan0";
+  bool ipv4 = true;
+  bool ipv6 = false;
+  bool broadcast = false;
+  bool group_packets = false;
+  std::uint32_t mtu_bytes = 1428;
+  std::optional<double> ceiling_kbit_s;
+  std::vector<MeshAddress> seeds;
+  friend bool operator==(const MeshInterfaceConfig&, const MeshInterfaceConfig&) = default;
+};
+
+// How this node meets the others; off while no interface is named.
+struct MeshSettings {
+  std::filesystem::path key_file{"/etc/warren/fleet.key"};
+  std::uint32_t port = 7718;
+  std::uint32_t group_port = 7717;
+  bool group_loop = false;
+  double shutdown_s = 3.0;
+  std::vector<MeshInterfaceConfig> interfaces;
+
+  bool is_on() const { return !interfaces.empty(); }
+  friend bool operator==(const MeshSettings&, const MeshSettings&) = default;
+};
+
+inline constexpr std::uint64_t kBytesPerMegabyte = 1'000'000;
+
+enum class SharePolicyChoice : std::uint8_t { kEverything, kNear, kNothing };
+
+// Which blocks of the layers of others are copied here.
+struct ShareSettings {
+  SharePolicyChoice policy = SharePolicyChoice::kEverything;
+  double radius_m = 50.0;
+  std::uint32_t memory_mb_max = 2048;
+  friend bool operator==(const ShareSettings&, const ShareSettings&) = default;
+};
+
+// What survives a restart.
+struct StoreSettings {
+  bool enabled = true;
+  std::filesystem::path file{"/var/lib/warren/warren.db"};
+  std::uint32_t disk_mb_max = 4096;
+  friend bool operator==(const StoreSettings&, const StoreSettings&) = default;
+};
+
+// Where the map frame lies in the fleet's at the start: surveyed, level.
+struct SurveyedPose {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double yaw_deg = 0.0;
+
+  Pose pose() const;
+  friend bool operator==(const SurveyedPose&, const SurveyedPose&) = default;
+};
+
 // Everything an operator can set, with its defaults; schema.hpp tells names, ranges and meaning.
 struct Config {
   struct Node {
     std::string name = "robot";
     Role role = Role::kRobot;
+    SurveyedPose fleet_T_map;
     friend bool operator==(const Node&, const Node&) = default;
   };
   struct Sockets {
@@ -126,8 +185,13 @@ struct Config {
   LayerSettings layer;
   IngestConfig ingest;
   std::vector<SensorConfig> sensors{SensorConfig{}};
+  MeshSettings mesh;
+  ShareSettings share;
+  StoreSettings store;
   LogConfig log;
 
+  // The defaults of a base: it has no sensors.
+  static Config of_base();
   SelfMapConfig self_map() const;
   friend bool operator==(const Config&, const Config&) = default;
 };

@@ -52,12 +52,12 @@ void check_sensor(const SensorConfig& sensor, const std::string& place, FaultLis
   check_body_box(sensor, place, faults);
 }
 
-}  // namespace
-
-void check_consistency(const Config& config, FaultList& faults) {
-  check_sensor_model(config.map.sensor_model, faults);
-  check_terrain(config.terrain, faults);
-  check_sockets(config.sockets, faults);
+void check_sensors(const Config& config, FaultList& faults) {
+  const bool is_base = config.node.role == Role::kBase;
+  if (is_base && !config.sensors.empty()) {
+    faults.add("sensors", "a base has none: leave them out, or let node.role be robot");
+  }
+  if (!is_base && config.sensors.empty()) faults.add("sensors", "a robot needs at least one");
   std::set<std::string> names;
   for (std::size_t i = 0; i < config.sensors.size(); ++i) {
     const std::string place = "sensors[" + std::to_string(i) + "]";
@@ -66,6 +66,34 @@ void check_consistency(const Config& config, FaultList& faults) {
       faults.add(place + ".name", "'" + config.sensors[i].name + "' is taken by a sensor above");
     }
   }
+}
+
+void check_mesh(const MeshSettings& mesh, FaultList& faults) {
+  if (mesh.port == mesh.group_port) {
+    faults.add("mesh.port", "is mesh.group_port too; they need two");
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
+    const MeshInterfaceConfig& interface = mesh.interfaces[i];
+    const std::string place = "mesh.interfaces[" + std::to_string(i) + "]";
+    if (!names.insert(interface.name).second) {
+      faults.add(place + ".name", "'" + interface.name + "' is taken by an interface above");
+    }
+    if (!interface.ipv4 && !interface.ipv6) {
+      faults.add(place + ".ipv4", "must be true where ipv6 is not");
+    }
+    if (interface.broadcast && !interface.ipv4) faults.add(place + ".broadcast", "needs ipv4");
+  }
+}
+
+}  // namespace
+
+void check_consistency(const Config& config, FaultList& faults) {
+  check_sensor_model(config.map.sensor_model, faults);
+  check_terrain(config.terrain, faults);
+  check_sockets(config.sockets, faults);
+  check_sensors(config, faults);
+  check_mesh(config.mesh, faults);
 }
 
 }  // namespace warren

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/config/document.hpp"
 
+#include <optional>
 #include <set>
+#include <string_view>
 
 #include <yaml-cpp/yaml.h>
 
@@ -113,28 +115,44 @@ class OwnerReader {
   FaultList& faults_;
 };
 
-void read_sensor(const YAML::Node& node, const std::string& place, SensorConfig& sensor,
-                 FaultList& faults) {
+// What the reader of lists needs to know of one.
+template <typename Owner>
+struct ListRule {
+  std::string_view key;
+  std::span<const Key<Owner>> keys;
+  std::size_t most = 0;
+  std::string_view entries;  // what they are called, and one of them
+  std::string_view entry;
+};
+
+template <typename Owner>
+void read_entry_of(const ListRule<Owner>& rule, const YAML::Node& node, const std::string& place,
+                   Owner& owner, FaultList& faults) {
   if (!node.IsMap()) return faults.add_at(line_of(node), place + ": must be a section of keys");
   faults.set_line(place + ".name", line_of(node));
-  if (!node["name"]) faults.add(place + ".name", "missing: every sensor needs one");
+  if (!node["name"]) {
+    faults.add(place + ".name", "missing: every " + std::string(rule.entry) + " needs one");
+  }
   const auto no_other = [](const std::string&, const YAML::Node&) { return false; };
-  OwnerReader<SensorConfig>(sensor, sensor_keys(), place + ".", faults)
-      .read_section(node, "", no_other);
+  OwnerReader<Owner>(owner, rule.keys, place + ".", faults).read_section(node, "", no_other);
 }
 
-std::vector<SensorConfig> read_sensors(const YAML::Node& node, FaultList& faults) {
-  std::vector<SensorConfig> sensors;
-  const std::string key(kSensorsKey);
-  if (!node.IsSequence() || node.size() == 0 || node.size() > kMaxSensors) {
-    faults.add(key, "must be a list of 1 to " + std::to_string(kMaxSensors) + " sensors");
-    return sensors;
+// Nothing if it is no such list; faults within its entries are told, but it is one.
+template <typename Owner>
+std::optional<std::vector<Owner>> read_list(const ListRule<Owner>& rule, const YAML::Node& node,
+                                            FaultList& faults) {
+  const std::string key(rule.key);
+  if (!node.IsSequence() || node.size() > rule.most) {
+    faults.add(key, "must be a list of at most " + std::to_string(rule.most) + " " +
+                        std::string(rule.entries));
+    return std::nullopt;
   }
+  std::vector<Owner> owners;
   for (const auto& item : node) {
-    const std::string place = key + "[" + std::to_string(sensors.size()) + "]";
-    read_sensor(item, place, sensors.emplace_back(), faults);
+    const std::string place = key + "[" + std::to_string(owners.size()) + "]";
+    read_entry_of(rule, item, place, owners.emplace_back(), faults);
   }
-  return sensors;
+  return owners;
 }
 
 }  // namespace
@@ -146,12 +164,26 @@ Config read_document(const YAML::Node& root, FaultList& faults) {
     faults.add_at(line_of(root), "must be sections of keys");
     return config;
   }
-  const auto read_sensor_list = [&](const std::string& key, const YAML::Node& node) {
-    if (key != kSensorsKey) return false;
-    config.sensors = read_sensors(node, faults);
+  const ListRule<SensorConfig> sensors{kSensorsKey, sensor_keys(), kMaxSensors, "sensors",
+                                       "sensor"};
+  const ListRule<MeshInterfaceConfig> interfaces{kInterfacesKey, interface_keys(), kMaxInterfaces,
+                                                 "interfaces", "interface"};
+  bool sensors_given = false;
+  const auto read_lists = [&](const std::string& key, const YAML::Node& node) {
+    if (key == kSensorsKey) {
+      sensors_given = true;
+      if (auto list = read_list(sensors, node, faults)) config.sensors = *std::move(list);
+    } else if (key == kInterfacesKey) {
+      if (auto list = read_list(interfaces, node, faults)) {
+        config.mesh.interfaces = *std::move(list);
+      }
+    } else {
+      return false;
+    }
     return true;
   };
-  OwnerReader<Config>(config, root_keys(), "", faults).read_section(root, "", read_sensor_list);
+  OwnerReader<Config>(config, root_keys(), "", faults).read_section(root, "", read_lists);
+  if (config.node.role == Role::kBase && !sensors_given) config.sensors.clear();
   check_consistency(config, faults);
   return config;
 }

@@ -31,8 +31,10 @@ class OwnerPrinter {
   OwnerPrinter(std::ostringstream& out, Comments comments, std::size_t indent)
       : out_(out), comments_(comments), indent_(indent) {}
 
-  // The slots of a const owner are only read.
-  void print(const Owner& owner, std::span<const Key<Owner>> keys, bool is_item) {
+  // The slots of a const owner are only read. `after` is called behind each key, with its name.
+  template <typename After>
+  void print(const Owner& owner, std::span<const Key<Owner>> keys, bool is_item,
+             const After& after) {
     Owner copy = owner;
     Owner defaults;
     std::vector<std::string> sections;
@@ -47,6 +49,7 @@ class OwnerPrinter {
       if (comments_ == Comments::kAll) comment(key, defaults, depth - (dashed ? 2 : 0));
       out_ << std::string(depth - (dashed ? 2 : 0), ' ') << (dashed ? "- " : "") << leaf << ": "
            << print_value(key.slot(copy), rule_of(key)) << "\n";
+      after(key.name);
     }
   }
 
@@ -90,19 +93,63 @@ class OwnerPrinter {
   std::size_t indent_;
 };
 
+template <typename Owner>
+std::string print_entries(const std::vector<Owner>& entries, std::span<const Key<Owner>> keys,
+                          Comments comments, std::size_t indent) {
+  std::ostringstream out;
+  Comments here = comments;  // the first entry explains the keys
+  for (const Owner& entry : entries) {
+    OwnerPrinter<Owner>(out, here, indent).print(entry, keys, true, [](std::string_view) {});
+    here = Comments::kNone;
+  }
+  return out.str();
+}
+
+// Made comments, so that an example may stand where the default is none.
+std::string commented_out(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += "  # " + line.substr(2) + "\n";
+  return result;
+}
+
+std::string print_interfaces(const Config& config, Comments comments) {
+  std::string text;
+  if (comments == Comments::kAll) {
+    text += "  # The radios and cables of the mesh: 0 to " + std::to_string(kMaxInterfaces) +
+            ". While none is named, this node keeps to itself.\n";
+  }
+  const auto& interfaces = config.mesh.interfaces;
+  if (!interfaces.empty()) {
+    return text + "  interfaces:\n" + print_entries(interfaces, interface_keys(), comments, 6);
+  }
+  text += "  interfaces: []\n";
+  if (comments == Comments::kAll) {
+    const std::vector<MeshInterfaceConfig> example(1);
+    text += "  # Or, for example:\n  # interfaces:\n" +
+            commented_out(print_entries(example, interface_keys(), comments, 6));
+  }
+  return text;
+}
+
+std::string print_sensors(const Config& config, Comments comments) {
+  std::string text;
+  if (comments == Comments::kAll) {
+    text += "\n# The lidars: 1 to " + std::to_string(kMaxSensors) +
+            ", of a base none. Scans name theirs; others are refused.\n";
+  }
+  text += std::string(kSensorsKey) + ":";
+  if (config.sensors.empty()) return text + " []\n";
+  return text + "\n" + print_entries(config.sensors, sensor_keys(), comments, 4);
+}
+
 std::string print(const Config& config, Comments comments) {
   std::ostringstream out;
-  OwnerPrinter<Config>(out, comments, 0).print(config, root_keys(), false);
-  if (comments == Comments::kAll) {
-    out << "\n# The lidars: 1 to " << kMaxSensors << ". Scans name theirs; others are refused.\n";
-  }
-  out << kSensorsKey << ":\n";
-  bool explained = comments == Comments::kNone;
-  for (const SensorConfig& sensor : config.sensors) {
-    const Comments here = explained ? Comments::kNone : Comments::kAll;
-    OwnerPrinter<SensorConfig>(out, here, 4).print(sensor, sensor_keys(), true);
-    explained = true;
-  }
+  OwnerPrinter<Config>(out, comments, 0)
+      .print(config, root_keys(), false, [&](std::string_view key) {
+        if (key == kInterfacesAfter) out << print_interfaces(config, comments);
+      });
+  out << print_sensors(config, comments);
   return out.str();
 }
 
@@ -133,6 +180,9 @@ ConfigChanges compare_configs(const Config& before, const Config& after) {
     if (print_value(key.slot(a), rule_of(key)) == print_value(key.slot(b), rule_of(key))) continue;
     auto& list = key.takes == Takes::kReload ? changes.effective : changes.needs_restart;
     list.emplace_back(key.name);
+  }
+  if (!(before.mesh.interfaces == after.mesh.interfaces)) {
+    changes.needs_restart.emplace_back(kInterfacesKey);
   }
   if (!(before.sensors == after.sensors)) changes.effective.emplace_back(kSensorsKey);
   return changes;

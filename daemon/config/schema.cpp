@@ -8,7 +8,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kRoles{"robot"sv};
+constexpr std::array kRoles{"robot"sv, "base"sv};
+constexpr std::array kSharePolicies{"everything"sv, "near"sv, "nothing"sv};
 constexpr std::array kPresets{"warren"sv, "octomap"sv, "field"sv, "custom"sv};
 constexpr std::array kTerrainProfiles{"robust"sv, "paper"sv};
 constexpr std::array kCostRules{"information"sv, "paper"sv};
@@ -25,17 +26,35 @@ ChoiceSlot choice(Enum& value) {
 // Below one half a probability speaks for free, above for occupied; 0 and 1 have no log-odds.
 constexpr Limits kSpeaksForFree{0.001, 0.499};
 constexpr Limits kSpeaksForOccupied{0.501, 0.999};
-constexpr Limits kCoordinate{-100.0, 100.0};
+constexpr Limits kSurveyed{-1e6, 1e6};
+constexpr Limits kPorts{0, 65535};
+// Below, there is no room for the write-ahead log.
+constexpr Limits kDiskMb{256, 1e6};
 
 constexpr std::array kRootKeys{
     RootKey{"node.name", "Name of this node, in logs and status.", Takes::kRestart,
             [](Config& c) -> Slot { return &c.node.name; }},
-    RootKey{"node.role",
-            "What this node is: a robot maps what its own sensors see.",
+    RootKey{
+        "node.role",
+        "What this node is. robot: maps what its own sensors see; base: has no sensors, and opens "
+        "no ingest socket.",
+        Takes::kRestart,
+        [](Config& c) -> Slot { return choice(c.node.role); },
+        {},
+        kRoles},
+    RootKey{"node.fleet_T_map.x_m",
+            "Where the map frame's origin lies in the fleet frame at the start, as surveyed, "
+            "metres. A pose update replaces it.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.node.fleet_T_map.x_m; }, kSurveyed},
+    RootKey{"node.fleet_T_map.y_m", "The same along y.", Takes::kRestart,
+            [](Config& c) -> Slot { return &c.node.fleet_T_map.y_m; }, kSurveyed},
+    RootKey{"node.fleet_T_map.z_m", "The same along z.", Takes::kRestart,
+            [](Config& c) -> Slot { return &c.node.fleet_T_map.z_m; }, kSurveyed},
+    RootKey{"node.fleet_T_map.yaw_deg",
+            "How far the map frame is turned about the vertical, degrees.",
             Takes::kRestart,
-            [](Config& c) -> Slot { return choice(c.node.role); },
-            {},
-            kRoles},
+            [](Config& c) -> Slot { return &c.node.fleet_T_map.yaw_deg; },
+            {-360.0, 360.0}},
     RootKey{"sockets.ingest.path", "Unix socket that takes scans (docs/PROTOCOL.md).",
             Takes::kRestart, [](Config& c) -> Slot { return &c.sockets.ingest.path; }},
     RootKey{"sockets.ingest.mode", "Who may connect: permission bits, octal.", Takes::kRestart,
@@ -158,6 +177,55 @@ constexpr std::array kRootKeys{
             Takes::kRestart,
             [](Config& c) -> Slot { return &c.ingest.message_timeout_s; },
             {0.05, 3600}},
+    RootKey{"mesh.key_file",
+            "The secret that all members of the fleet share, for this user's eyes only: "
+            "warrenctl key new FILE. Unused while no interface is named.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.mesh.key_file; }},
+    RootKey{"mesh.port",
+            "UDP port of this node; 0: any that is free. Nodes on one host need different ones.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.mesh.port; }, kPorts},
+    RootKey{"mesh.group_port",
+            "UDP port on which the whole fleet finds each other.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.mesh.group_port; },
+            {1, 65535}},
+    RootKey{"mesh.group_loop", "Other nodes on this host hear what goes to the whole fleet, too.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.mesh.group_loop; }},
+    RootKey{"mesh.shutdown_s",
+            "At shutdown, what neighbours have not got yet is sent for at most so long, seconds.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.mesh.shutdown_s; },
+            {0.0, 600.0}},
+    RootKey{"share.policy",
+            "Which layers of others are copied here. everything: all of them, also for those who "
+            "cannot hear each other; near: what lies within radius_m of this node; nothing: where "
+            "others are, but not what they mapped.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return choice(c.share.policy); },
+            {},
+            kSharePolicies},
+    RootKey{"share.radius_m",
+            "With policy near: how far from this node, metres.",
+            Takes::kRestart,
+            [](Config& c) -> Slot { return &c.share.radius_m; },
+            {1.0, 10000.0}},
+    RootKey{
+        "share.memory_mb_max",
+        "Most that copies of others' layers take in memory, megabytes of 10^6 bytes. At it, they "
+        "grow no more until some have been packed; this node's own map is never held back.",
+        Takes::kRestart,
+        [](Config& c) -> Slot { return &c.share.memory_mb_max; },
+        {1.0, 1e6}},
+    RootKey{"store.enabled",
+            "Keep map, copies and messages in a file, and go on with them after a restart. false: "
+            "a restart begins anew.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.store.enabled; }},
+    RootKey{"store.file", "The file, in a folder that exists; others beside it begin as its name.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.store.file; }},
+    RootKey{"store.disk_mb_max",
+            "Most that the store takes on the disk, megabytes of 10^6 bytes. Near it, messages and "
+            "maps of others go; this node's own never do.",
+            Takes::kRestart, [](Config& c) -> Slot { return &c.store.disk_mb_max; }, kDiskMb},
     RootKey{"log.level",
             "The least important lines to log.",
             Takes::kReload,
@@ -172,35 +240,8 @@ constexpr std::array kRootKeys{
             kLogFormats},
 };
 
-constexpr std::array kSensorKeys{
-    SensorKey{"name", "The name that its scans carry.", Takes::kReload,
-              [](SensorConfig& s) -> Slot { return &s.name; }},
-    SensorKey{"min_range_m",
-              "Points nearer to the sensor are dropped and carve nothing, metres.",
-              Takes::kReload,
-              [](SensorConfig& s) -> Slot { return &s.min_range_m; },
-              {0.0, 100.0}},
-    SensorKey{
-        "max_range_m",
-        "Points farther off carve free space up to here and mark nothing, metres; null: no limit.",
-        Takes::kReload,
-        [](SensorConfig& s) -> Slot { return &s.max_range_m; },
-        {0.1, 1000.0}},
-    SensorKey{"body_box.low_m",
-              "The robot's own body: points in this box are dropped. Lowest corner in the base "
-              "frame, metres; null: no box.",
-              Takes::kReload, [](SensorConfig& s) -> Slot { return &s.body_box_low_m; },
-              kCoordinate},
-    SensorKey{"body_box.high_m", "Highest corner of the box.", Takes::kReload,
-              [](SensorConfig& s) -> Slot { return &s.body_box_high_m; }, kCoordinate},
-    SensorKey{"carve_no_returns",
-              "Rays sent as no-return directions carve free space up to max_range_m.",
-              Takes::kReload, [](SensorConfig& s) -> Slot { return &s.carve_no_returns; }},
-};
-
 }  // namespace
 
 std::span<const RootKey> root_keys() { return kRootKeys; }
-std::span<const SensorKey> sensor_keys() { return kSensorKeys; }
 
 }  // namespace warren

@@ -5,6 +5,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
+
+#include "transport/udp/address_text.hpp"
 
 namespace warren {
 namespace {
@@ -128,6 +131,18 @@ struct Reader {
     *value = vector;
     return {};
   }
+  Result operator()(std::vector<MeshAddress>* value) const {
+    if (!raw.is_list) return Failure("is not a list");
+    if (raw.scalars.size() > kMaxSeeds) return Failure("is too long");
+    std::vector<MeshAddress> addresses;
+    for (const RawScalar& text : raw.scalars) {
+      const auto address = mesh::parse_mesh_address(text.text);
+      if (!address) return Failure("has something that is no address and port");
+      addresses.push_back(*address);
+    }
+    *value = std::move(addresses);
+    return {};
+  }
   Result operator()(const ChoiceSlot& choice) const {
     if (auto text = no_text(); !text) return text;
     const auto found = std::find(rule.choices.begin(), rule.choices.end(), scalar().text);
@@ -166,6 +181,13 @@ struct Printer {
     list.append(print_number(v.x())).append(", ").append(print_number(v.y()));
     return list.append(", ").append(print_number(v.z())).append("]");
   }
+  std::string operator()(const std::vector<MeshAddress>* value) const {
+    std::string list;
+    for (const MeshAddress& address : *value) {
+      list += (list.empty() ? "" : ", ") + in_quotes(mesh::to_text(address));
+    }
+    return list.insert(0, 1, '[').append(1, ']');
+  }
   std::string operator()(const ChoiceSlot& choice) const {
     return std::string(rule.choices[*choice.value]);
   }
@@ -191,6 +213,10 @@ struct Describer {
   std::string operator()(const FileMode*) const { return "0000 to 0777, four octal digits"; }
   std::string operator()(const std::optional<Eigen::Vector3d>*) const {
     return "[x, y, z], each " + range_text(rule.limits) + ", or null";
+  }
+  std::string operator()(const std::vector<MeshAddress>*) const {
+    return "a list of at most " + std::to_string(kMaxSeeds) +
+           " addresses with ports, e.g. ['10.9.0.2:7717', '[fe80::1]:7717']";
   }
   std::string operator()(const ChoiceSlot&) const {
     std::string all;

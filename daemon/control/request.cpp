@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/layer/layer_pose.hpp"
+#include "daemon/control/fleet_decoder.hpp"
+#include "daemon/control/planner_request.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kVoxelDepth = 16;
 constexpr double kYawMost_rad = 1000.0;
+constexpr std::size_t kMaxNodeNameBytes = 32;
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
 // What is wrong with the path that this request names; nothing if nothing is.
@@ -45,10 +48,16 @@ tl::expected<ControlRequest, std::string> save_order(const control::MapSaveReque
     return tl::unexpected(std::string("map_save.source is unknown"));
   }
   const MapSource source = source_of(request.source());
+  if (!request.of().empty() && source == MapSource::kMerge) {
+    return tl::unexpected(std::string("map_save.of is of source SELF alone"));
+  }
+  if (request.of().size() > kMaxNodeNameBytes) {
+    return tl::unexpected(std::string("map_save.of is too long"));
+  }
   if (request.colours() == control::ROBOT && source == MapSource::kSelf) {
     return tl::unexpected(std::string("map_save.colours ROBOT is of source MERGE alone"));
   }
-  return SaveOrder{request.path(), colours_of(request.colours()), source};
+  return SaveOrder{request.path(), colours_of(request.colours()), source, request.of()};
 }
 
 tl::expected<ControlRequest, std::string> load_order(const control::MapLoadRequest& request) {
@@ -74,6 +83,9 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   if (!control::MapSource_IsValid(request.source())) {
     return tl::unexpected(std::string("ground.source is unknown"));
   }
+  if (!(request.unknown_up_to() >= 0.0 && request.unknown_up_to() <= 1.0)) {
+    return tl::unexpected(std::string("ground.unknown_up_to is 0 to 1"));
+  }
   const Doubles& pose = request.t_map_base();
   GroundQuestion question;
   question.source = source_of(request.source());
@@ -81,6 +93,7 @@ tl::expected<ControlRequest, std::string> ground_question(const control::GroundR
   question.T_map_base.rotation = Eigen::Quaterniond(pose[6], pose[3], pose[4], pose[5]);
   question.footprint = {request.length_m(), request.width_m()};
   question.stair_capable = request.stair_capable();
+  question.unknown_up_to = request.unknown_up_to();
   if (request.has_above_m()) question.above_m = request.above_m();
   if (request.has_below_m()) question.below_m = request.below_m();
   if (request.gravity_map_size() == 3) question.gravity_map = vector_at(request.gravity_map(), 0);
@@ -177,8 +190,20 @@ tl::expected<ControlRequest, std::string> decode_control_request(std::span<const
       return move_order(request.map_move());
     case control::Request::kCells:
       return cells_question(request.cells());
+    case control::Request::kFleetStatus:
+      return FleetStatusQuestion{};
     case control::Request::kGround:
       return ground_question(request.ground());
+    case control::Request::kMessageSend:
+    case control::Request::kMessageWatch:
+    case control::Request::kFleetOrder:
+    case control::Request::kTrajectory:
+    case control::Request::kAlignEstimate:
+      return decode_fleet_request(request);
+    case control::Request::kBlocks:
+      return blocks_question(request.blocks());
+    case control::Request::kRays:
+      return rays_question(request.rays());
     default:
       return tl::unexpected(std::string("the request has no known body"));
   }

@@ -118,7 +118,26 @@ void fill(const LoadedLayer& layer, control::LoadedLayer& message) {
   message.set_voxels_occupied(layer.voxels.occupied);
   message.set_retracted(layer.retracted);
   message.set_out_of_reach(layer.out_of_reach);
+  message.set_unplaced(layer.unplaced);
   add_pose(layer.T_fleet_layer, *message.mutable_t_fleet_layer());
+}
+
+void fill(const StoreStatus& store, control::StoreStatus& message) {
+  if (store.health.failing) message.set_failing(store.health.failing->text);
+  message.set_batches_queued(store.batches_queued);
+  message.set_bytes_queued(store.bytes_queued);
+  message.set_transactions(store.transactions);
+  message.set_transactions_failed(store.transactions_failed);
+  for (std::size_t i = 0; i < kBatchResults; ++i) {
+    const auto result = static_cast<BatchResult>(i);
+    add_count(text_of(result), store.results[i], *message.mutable_results());
+  }
+  message.set_layers_evicted(store.layers_evicted);
+  message.set_messages_evicted(store.items_evicted);
+  message.set_file_bytes(store.usage.file_bytes);
+  message.set_used_bytes(store.usage.used_bytes);
+  message.set_log_bytes(store.usage.log_bytes);
+  message.set_checkpoints_failed(store.usage.checkpoints_failed);
 }
 
 }  // namespace
@@ -138,6 +157,7 @@ std::string encode_status(const StatusReport& report) {
   status.set_layers_loaded(static_cast<std::uint32_t>(report.publishing.loaded.size()));
   for (const LoadedLayer& layer : report.publishing.loaded) fill(layer, *status.add_loaded());
   status.set_poses_refused(report.publishing.poses_refused);
+  if (report.store) fill(*report.store, *status.mutable_store());
   return framed(response.SerializeAsString());
 }
 

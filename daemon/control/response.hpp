@@ -3,15 +3,20 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/exchange/map_writer.hpp"
 #include "daemon/fleet/fleet_map.hpp"
+#include "daemon/fleet/fleet_report.hpp"
 #include "daemon/ingest/server_status.hpp"
 #include "daemon/mapper/mapper.hpp"
+#include "daemon/store/store_worker.hpp"
 
 namespace warren {
+
+inline constexpr const char* kTooManyQuestions = "too many questions wait; try again";
 
 struct StatusReport {
   std::string node;
@@ -21,6 +26,7 @@ struct StatusReport {
   Mapper::QueueLoad queue;
   MapperStatus mapper;
   PublishingReport publishing;
+  std::optional<StoreStatus> store;  // none: the node keeps nothing
 };
 
 // Responses as they go over the wire, length included.
@@ -35,6 +41,9 @@ std::string encode_map_loaded(const LoadedLayer& layer);
 std::string encode_loaded_layer(const LoadedLayer& layer);
 std::string encode_ground(const GroundAnswer& answer);
 std::string encode_cells(const CellsAnswer& answer);
+std::string encode_blocks(const BlocksAnswer& answer);
+std::string encode_rays(const RaysAnswer& answer);
+std::string encode_fleet_status(const FleetReport& report);
 std::string encode_config(const std::string& yaml);
 std::string encode_error(const std::string& text);
 

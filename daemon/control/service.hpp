@@ -11,6 +11,7 @@
 #include "core/exchange/map_writer.hpp"
 #include "daemon/control/response.hpp"
 #include "daemon/control/session.hpp"
+#include "daemon/control/subscriptions.hpp"
 #include "daemon/fleet/fleet.hpp"
 #include "daemon/ingest/server.hpp"
 #include "daemon/mapper/mapper.hpp"
@@ -26,6 +27,8 @@ class ControlService {
   // A snapshot is a copy of the map, and a layer being loaded another one: memory bounds how many
   // may wait for the disk.
   static constexpr std::size_t kMaxPendingFiles = 2;
+  static constexpr const char* kTooBusy = kTooManyQuestions;
+  static constexpr const char* kBusyWithFiles = "busy with other files; try again";
 
   struct Dependencies {
     asio::io_context& io;
@@ -44,7 +47,7 @@ class ControlService {
   ControlService& operator=(const ControlService&) = delete;
 
   using Respond = std::function<void(std::string)>;
-  void handle(const ControlRequest& request, const Respond& respond);
+  Hurry handle(const ControlRequest& request, const Respond& respond);
 
  private:
   void answer(const StatusQuestion& question, const Respond& respond);
@@ -59,10 +62,19 @@ class ControlService {
   void answer(const RetractOrder& order, const Respond& respond);
   void answer(const RestoreOrder& order, const Respond& respond);
   void answer(const MoveOrder& order, const Respond& respond);
+  void answer(const FleetStatusQuestion& question, const Respond& respond);
+  void answer(const MessageSendOrder& order, const Respond& respond);
+  void answer(const MessageWatchQuestion& question, const Respond& respond);
+  void answer(const FleetOrder& order, const Respond& respond);
+  void answer(const TrajectoryQuestion& question, const Respond& respond);
+  void answer(const AlignEstimateQuestion& question, const Respond& respond);
+  void ask_mesh(std::function<void(const FleetParts&, const Respond&)> act, const Respond& respond);
+  void answer(const RaysQuestion& question, const Respond& respond);
   using LoadedLayersOrder = std::function<LoadedLayers::Result(LoadedLayers&)>;
   void change_loaded(const LoadedLayersOrder& order, const Respond& respond);
   void load(const LoadOrder& order, const Respond& done);
   void save_layer(const SaveOrder& order, const Respond& done);
+  void save_copy(const SaveOrder& order, const Respond& done);
   void save_merged(const SaveOrder& order, const Respond& done);
   Respond begin_file_work(const Respond& respond);
   void save(const SaveOrder& order, const std::shared_ptr<const MapSnapshot>& snapshot,
@@ -72,6 +84,7 @@ class ControlService {
 
   Dependencies parts_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  Subscriptions subscriptions_;
   std::size_t pending_files_ = 0;
   asio::thread_pool files_{1};
 };

@@ -19,6 +19,24 @@ ControlSession::ControlSession(Socket socket, const ControlHandler& handler,
       handler_(handler),
       on_closed_(std::move(on_closed)) {}
 
+void ControlSession::start() {
+  watch_for_hangup();
+  read_length_bytes();
+}
+
+// Nobody reads while a request is worked on, so that is not how a client's end is noticed then.
+void ControlSession::watch_for_hangup() {
+  socket_.async_wait(Socket::wait_error, [self = shared_from_this()](std::error_code error) {
+    if (error) return;
+    self->hung_up_ = true;
+    self->hurry();
+  });
+}
+
+void ControlSession::hurry() {
+  if (const Hurry hurry = std::exchange(hurry_, nullptr)) hurry();
+}
+
 void ControlSession::read_length_bytes() {
   socket_.async_read_some(asio::buffer(length_),
                           [self = shared_from_this()](std::error_code error, std::size_t count) {
@@ -57,12 +75,14 @@ void ControlSession::handle() {
   const auto request = decode_control_request(body_);
   body_ = {};
   if (!request) return respond(encode_error(request.error()), false);
-  handler_(*request, [self = shared_from_this()](std::string frame) {
+  hurry_ = handler_(*request, [self = shared_from_this()](std::string frame) {
     self->respond(std::move(frame), false);
   });
+  if (hung_up_) hurry();
 }
 
 void ControlSession::respond(std::string frame, bool close_after) {
+  hurry_ = nullptr;
   response_ = std::move(frame);
   watch(kMessageTime);
   asio::async_write(socket_, asio::buffer(response_),
@@ -93,11 +113,13 @@ void ControlSession::reject(const std::string& text) {
 
 void ControlSession::finish() {
   finishing_ = true;
+  hurry();
   if (!working_) close();
 }
 
 void ControlSession::close() {
   deadline_.cancel();
+  hurry_ = nullptr;
   std::error_code ignored;
   socket_.close(ignored);
   if (const auto on_closed = std::exchange(on_closed_, nullptr)) on_closed();

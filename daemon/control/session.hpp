@@ -16,8 +16,10 @@
 namespace warren {
 
 // Answers a request with an encoded response, at once or later, on the io_context's thread, once.
+// Where the answer may wait for something to happen, what is returned makes it come at once.
+using Hurry = std::function<void()>;
 using ControlHandler =
-    std::function<void(const ControlRequest&, std::function<void(std::string)> respond)>;
+    std::function<Hurry(const ControlRequest&, std::function<void(std::string)> respond)>;
 
 // One client of the control socket: one request after the other, each answered before the next is
 // read.
@@ -29,13 +31,15 @@ class ControlSession : public std::enable_shared_from_this<ControlSession> {
 
   ControlSession(Socket socket, const ControlHandler& handler, std::function<void()> on_closed);
 
-  void start() { read_length_bytes(); }
+  void start();
   // Says why there is no service, and closes; instead of start().
   void reject(const std::string& text);
   // Closes: at once, or after the response that is being worked on.
   void finish();
 
  private:
+  void watch_for_hangup();
+  void hurry();
   void read_length_bytes();
   void read_rest_of_length(std::size_t count);
   void read_body();
@@ -51,6 +55,8 @@ class ControlSession : public std::enable_shared_from_this<ControlSession> {
   std::array<std::byte, 4> length_{};
   std::vector<std::byte> body_;
   std::string response_;
+  Hurry hurry_;  // while an answer may be waited for
+  bool hung_up_ = false;
   bool watching_ = false;
   bool working_ = false;
   bool finishing_ = false;

@@ -30,6 +30,7 @@ void FleetMap::tick(std::span<const LayerChanges> changes) {
   rest_quiet_layers();
   if (changes.empty()) return;
   gravity_map_ = changes.back().gravity_map;
+  position_map_ = changes.back().position_map;
   place_layers();
 }
 
@@ -47,23 +48,62 @@ std::optional<FlushReport> FleetMap::flush() {
   return FlushReport{layer->id(), layer->holdings().at(0), blocks};
 }
 
+template <typename... Args>
+OwnLayer& FleetMap::open(std::uint32_t number, const Eigen::Vector3d& origin_map, Args&&... args) {
+  merge_origin_map_ = origin_map;
+  merge_.open_self_layer(number, Eigen::Isometry3d::Identity());
+  OwnLayer& opened = own_.try_emplace(number, std::forward<Args>(args)...).first->second;
+  opened_(opened);
+  return opened;
+}
+
 OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
   const auto found = own_.find(changes.number);
   if (found != own_.end()) return found->second;
   const LayerId id{config_.origin, changes.number, draw_incarnation_()};
   const Eigen::Vector3d origin_map = changes.origin.position_map(config_.resolution.metres());
-  merge_origin_map_ = origin_map;
-  merge_.open_self_layer(changes.number, Eigen::Isometry3d::Identity());
-  return own_
-      .try_emplace(changes.number, id, config_.resolution, origin_map, config_.publishing,
-                   config_.rest_after_ticks)
-      .first->second;
+  return open(changes.number, origin_map, id, config_.resolution, origin_map, config_.publishing,
+              config_.rest_after_ticks);
+}
+
+void FleetMap::restore(std::vector<StoredOwnLayer> layers) {
+  for (StoredOwnLayer& layer : layers) {
+    const std::uint32_t number = layer.layer.id().number;
+    const Eigen::Vector3d origin_map = layer.origin.position_map(config_.resolution.metres());
+    open(number, origin_map, std::move(layer), config_.publishing, config_.rest_after_ticks);
+  }
+}
+
+bool FleetMap::correct_own(const LayerId& layer, const WrittenPose& correction) {
+  const auto found = own_.find(layer.number);
+  if (found == own_.end() || found->second.layer().id() != layer) return false;
+  const bool moved = found->second.correct(correction);
+  if (moved) place_layers();
+  return moved;
+}
+
+std::optional<Eigen::Vector3d> FleetMap::position_layer() const {
+  if (own_.empty() || !position_map_) return std::nullopt;
+  return own_.rbegin()->second.T_map_layer().inverse() * *position_map_;
+}
+
+std::optional<Eigen::Vector3d> FleetMap::position_fleet() const {
+  if (own_.empty() || !position_map_) return std::nullopt;
+  return own_.rbegin()->second.T_fleet_map() * *position_map_;
 }
 
 Eigen::Isometry3d FleetMap::T_merge_fleet() const {
   const Eigen::Translation3d T_merge_map(-merge_origin_map_);
   if (own_.empty()) return Eigen::Isometry3d(T_merge_map);
   return T_merge_map * own_.rbegin()->second.T_fleet_map().inverse();
+}
+
+VoxelState FleetMap::own_state(const Eigen::Vector3d& position_merge) {
+  const MergedVoxel voxel = merge_.voxel(Point3f{static_cast<float>(position_merge.x()),
+                                                 static_cast<float>(position_merge.y()),
+                                                 static_cast<float>(position_merge.z())});
+  const bool own = voxel.source != kNoSource && merge_.source(voxel.source).self;
+  return own ? voxel.code.state() : VoxelState::kUnknown;
 }
 
 Eigen::Isometry3d FleetMap::T_merge_own(const OwnLayer& layer) const {
@@ -101,16 +141,13 @@ tl::expected<GroundAnswer, std::string> FleetMap::ground(const GroundQuestion& q
 }
 
 tl::expected<CellsAnswer, std::string> FleetMap::cells(const CellsQuestion& question) {
+  if (!has_map(question.source)) return tl::unexpected(std::string(kNoMapYet));
   const bool on_merge = question.source == MapSource::kMerge;
-  if (own_.empty() && (!on_merge || loaded_.size() == 0)) {
-    return tl::unexpected(std::string(kNoMapYet));
-  }
   const double resolution_m = config_.resolution.metres();
-  const Eigen::Vector3d origin_map =
-      on_merge ? merge_origin_map_ : own_.rbegin()->second.T_map_layer().translation();
-  const auto grid = grid_of(question, resolution_m, origin_map);
+  const Eigen::Vector3d origin = origin_map(question.source);
+  const auto grid = grid_of(question, resolution_m, origin);
   if (!grid) return tl::unexpected(grid.error());
-  return CellsAnswer{resolution_m, origin_map, grid->level(),
+  return CellsAnswer{resolution_m, origin, grid->level(),
                      on_merge ? cells_of(merge_, *grid) : cells_of(*current(), *grid)};
 }
 
@@ -178,8 +215,12 @@ std::optional<LayerDiff> FleetMap::diff(const KeyInterval& keys, Revision from) 
 std::optional<EncodedLayer> FleetMap::encoded_layer() const {
   const Replica* const layer = current();
   if (layer == nullptr) return std::nullopt;
-  const MapCounts known = counts_of(*layer);
-  return EncodedLayer{encode_layer(*layer), known.free + known.occupied};
+  return encoded(*layer);
+}
+
+EncodedLayer FleetMap::encoded(const Replica& layer) {
+  const MapCounts known = counts_of(layer);
+  return {encode_layer(layer), known.free + known.occupied};
 }
 
 }  // namespace warren

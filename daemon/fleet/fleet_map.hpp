@@ -16,9 +16,11 @@
 #include "core/exchange/merged_snapshot.hpp"
 #include "core/layer/merge_map.hpp"
 #include "daemon/control/request.hpp"
+#include "daemon/fleet/blocks_answer.hpp"
 #include "daemon/fleet/cells_answer.hpp"
 #include "daemon/fleet/loaded_layers.hpp"
 #include "daemon/fleet/own_layer.hpp"
+#include "daemon/fleet/rays_answer.hpp"
 #include "daemon/mapper/layered_map.hpp"
 
 namespace warren {
@@ -96,9 +98,14 @@ class FleetMap {
         draw_incarnation_(std::move(draw_incarnation)),
         merge_({config.resolution.metres()}),
         loaded_(merge_, config.rest_after_ticks) {}
+  // `told` is called with every own layer when it is opened, before it publishes anything.
+  void on_open(std::function<void(const OwnLayer&)> told) { opened_ = std::move(told); }
   FleetMap(const FleetMap&) = delete;
   FleetMap& operator=(const FleetMap&) = delete;
 
+  // Own layers as a store had them, before anything else. The first tick must have all their
+  // blocks.
+  void restore(std::vector<StoredOwnLayer> layers);
   // One tick of all layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back. Nothing before the first scan.
@@ -107,6 +114,21 @@ class FleetMap {
   // Into the merge-map, where the layer's pose says.
   LoadedLayers::Result load(Replica layer, std::string file);
   LoadedLayers& loaded() { return loaded_; }
+  const LoadedLayers& loaded() const { return loaded_; }
+  // Takes over where the layers of others lie now.
+  void place_others() { loaded_.place(T_merge_fleet()); }
+
+  Eigen::Isometry3d T_merge_fleet() const;
+  // What this node measured itself at a place in the merge-map's frame. Fills its cache.
+  VoxelState own_state(const Eigen::Vector3d& position_merge);
+
+  const std::map<std::uint32_t, OwnLayer>& own_layers() const { return own_; }
+  // The operator's word on where an own layer lies; false if it is none, or not newer.
+  bool correct_own(const LayerId& layer, const WrittenPose& correction);
+  // Where this node's sensor was at the scan taken last, in the newest own layer.
+  std::optional<Eigen::Vector3d> position_layer() const;
+  // The same.
+  std::optional<Eigen::Vector3d> position_fleet() const;
 
   // The question is about the map frame of the newest own layer, and without gravity. Fills the
   // merge-map's cache.
@@ -114,19 +136,29 @@ class FleetMap {
   // Of the current own layer as it is published, or of the merge-map; the question is about the map
   // frame of the newest own layer.
   tl::expected<CellsAnswer, std::string> cells(const CellsQuestion& question);
+  // Likewise. A new own layer is a new map frame, in which a copy begins anew.
+  tl::expected<BlocksAnswer, std::string> blocks(const BlocksQuestion& question);
+  tl::expected<RaysAnswer, std::string> rays(const RaysQuestion& question);
   PublishingReport report() const;
   // All of the merge-map, for a file. Nothing while no layer is held.
   std::shared_ptr<const MergedSnapshot> merged_snapshot();
   // A copy of the current own layer, with its pose. Nothing before the first scan.
   std::optional<EncodedLayer> encoded_layer() const;
+  static EncodedLayer encoded(const Replica& layer);
   // From the revision that the copy holds at `keys` on. Nothing before the first scan.
   std::optional<LayerDiff> diff(const KeyInterval& keys, Revision from) const;
 
  private:
   OwnLayer& own_layer(const LayerChanges& changes);
+  template <typename... Args>
+  OwnLayer& open(std::uint32_t number, const Eigen::Vector3d& origin_map, Args&&... args);
   LayerMemory memory() const;
   const Replica* current() const;
-  Eigen::Isometry3d T_merge_fleet() const;
+  bool has_map(MapSource source) const {
+    return !own_.empty() || (source == MapSource::kMerge && loaded_.size() > 0);
+  }
+  // Where key (0, 0, 0) of that map lies in the map frame. Precondition: has_map(source).
+  Eigen::Vector3d origin_map(MapSource source) const;
   Eigen::Isometry3d T_merge_own(const OwnLayer& layer) const;
   // Layers that lie elsewhere in the merge-map's frame than before are moved there; those beyond
   // its reach are left out of it, and counted.
@@ -135,7 +167,9 @@ class FleetMap {
 
   FleetMapConfig config_;
   DrawIncarnation draw_incarnation_;
-  std::map<std::uint32_t, OwnLayer> own_;  // the last is the current one
+  std::function<void(const OwnLayer&)> opened_ = [](const OwnLayer&) {};
+  std::optional<Eigen::Vector3d> position_map_;  // of the newest own layer
+  std::map<std::uint32_t, OwnLayer> own_;        // the last is the current one
   // The merge-map's key (0, 0, 0) in the map frame: the newest own layer's, so that what is near it
   // has keys. Metres, whole blocks.
   Eigen::Vector3d merge_origin_map_ = Eigen::Vector3d::Zero();

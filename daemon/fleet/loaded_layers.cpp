@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/fleet/loaded_layers.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/layer/layer_counts.hpp"
@@ -29,52 +30,77 @@ tl::unexpected<std::string> refused(std::string why) { return tl::unexpected(std
 
 constexpr const char* kNotLoaded = "no such layer is loaded";
 
-// Turned about the vertical through its origin, then shifted.
-Eigen::Isometry3d shifted(const Eigen::Isometry3d& T_fleet_layer, const LayerShift& shift) {
-  Eigen::Isometry3d moved = T_fleet_layer;
-  moved.linear() = Eigen::AngleAxisd(shift.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
-                   T_fleet_layer.linear();
-  moved.translation() += shift.shift_fleet_m;
-  return moved;
-}
-
 }  // namespace
 
-LoadedLayers::Result LoadedLayers::add(Replica layer, std::string file) {
-  const LayerId id = layer.id();
+tl::expected<LoadedLayers::Held*, std::string> LoadedLayers::add(Held held) {
+  const LayerId id = held.replica->id();
   if (layers_.contains(id)) return refused(text_of(MergeResult::kKnownLayer));
-  if (layers_.size() == kLayersMax) return refused("too many layers are loaded already");
-  const auto entry =
-      layers_
-          .try_emplace(id,
-                       Held{std::move(layer), std::move(file), {}, RestSchedule(rest_after_ticks_)})
-          .first;
-  Held& held = entry->second;
-  held.T_merge_layer = T_merge_fleet_ * held.replica.pose().T_fleet_layer();
-  const MergeResult added =
-      merge_.add_layer(id, held.replica, held.replica.resolution().metres(), held.T_merge_layer);
-  if (added != MergeResult::kDone) {
-    if (added == MergeResult::kBadPose) ++placements_refused_;
-    layers_.erase(entry);
-    return refused(text_of(added));
+  const Replica& replica = *held.replica;
+  held.T_merge_layer = T_merge_fleet_ * replica.pose().T_fleet_layer();
+  const double resolution_m = replica.resolution().metres();
+  MergeResult added = merge_.add_layer(id, replica, resolution_m, held.T_merge_layer);
+  if (added == MergeResult::kBadPose) ++placements_refused_;
+  if (added == MergeResult::kBadPose && !held.loaded) {
+    // A copy may come within reach yet.
+    held.out_of_reach = true;
+    added = merge_.add_layer(id, replica, resolution_m, Eigen::Isometry3d::Identity());
   }
-  held.voxels = counts_of(held.replica);
-  return report_of(held);
+  if (added != MergeResult::kDone) return refused(text_of(added));
+  return &layers_.try_emplace(id, std::move(held)).first->second;
+}
+
+LoadedLayers::Result LoadedLayers::add(Replica layer, std::string file) {
+  const auto from_file = [](const auto& entry) { return entry.second.loaded != nullptr; };
+  if (std::count_if(layers_.begin(), layers_.end(), from_file) >=
+      static_cast<std::ptrdiff_t>(kLayersMax)) {
+    return refused("too many layers are loaded already");
+  }
+  Held held{.rest = RestSchedule(rest_after_ticks_)};
+  held.loaded = std::make_unique<Replica>(std::move(layer));
+  held.replica = held.loaded.get();
+  held.file = std::move(file);
+  const auto added = add(std::move(held));
+  if (!added) return tl::unexpected(added.error());
+  (*added)->voxels = counts_of(*(*added)->replica);
+  return report_of(**added);
+}
+
+LoadedLayers::Result LoadedLayers::add_copy(Replica& copy) {
+  Held held{.rest = RestSchedule(rest_after_ticks_)};
+  held.replica = &copy;
+  held.unplaced = lacks_pose(held);
+  const auto added = add(std::move(held));
+  if (!added) return tl::unexpected(added.error());
+  show(**added);
+  copy.on_change([this, id = copy.id()](BlockOrdinal block) { merge_.block_changed(id, block); });
+  return report_of(**added);
+}
+
+bool LoadedLayers::lacks_pose(const Held& held) {
+  return !held.loaded && held.replica->pose().origin().revision == 0;
 }
 
 LoadedLayers::Result LoadedLayers::set_retracted(const LayerId& id, bool retracted) {
-  Held* const held = find(id);
+  Held* const held = find_held(id);
   if (held == nullptr) return refused(kNotLoaded);
   held->retracted = retracted;
+  held->voxels = counts_of(*held->replica);
   show(*held);
   return report_of(*held);
 }
 
+void LoadedLayers::set_retracted_by_fleet(const LayerId& id, bool retracted) {
+  Held* const held = find_held(id);
+  if (held == nullptr || held->retracted_by_fleet == retracted) return;
+  held->retracted_by_fleet = retracted;
+  show(*held);
+}
+
 LoadedLayers::Result LoadedLayers::move(const LayerId& id, const LayerShift& shift) {
-  Held* const held = find(id);
+  Held* const held = find_held(id);
   if (held == nullptr) return refused(kNotLoaded);
   const Eigen::Isometry3d T_merge_layer =
-      T_merge_fleet_ * shifted(held->replica.pose().T_fleet_layer(), shift);
+      T_merge_fleet_ * shifted(held->replica->pose().T_fleet_layer(), shift);
   const MergeResult moved = merge_.move_layer(id, T_merge_layer);
   if (moved != MergeResult::kDone) {
     ++placements_refused_;
@@ -83,57 +109,88 @@ LoadedLayers::Result LoadedLayers::move(const LayerId& id, const LayerShift& shi
   held->shift = shift;
   held->T_merge_layer = T_merge_layer;
   held->out_of_reach = false;
+  held->voxels = counts_of(*held->replica);
   show(*held);
   return report_of(*held);
 }
 
 void LoadedLayers::place(const Eigen::Isometry3d& T_merge_fleet) {
   T_merge_fleet_ = T_merge_fleet;
-  for (auto& [id, held] : layers_) {
-    const Eigen::Isometry3d T_merge_layer =
-        T_merge_fleet * shifted(held.replica.pose().T_fleet_layer(), held.shift);
-    if (T_merge_layer.matrix() == held.T_merge_layer.matrix()) continue;
+  for (auto& [id, held] : layers_) place(held);
+}
+
+void LoadedLayers::place(Held& held) {
+  const Eigen::Isometry3d T_merge_layer =
+      T_merge_fleet_ * shifted(held.replica->pose().T_fleet_layer(), held.shift);
+  const bool unplaced = lacks_pose(held);
+  const bool stays = T_merge_layer.matrix() == held.T_merge_layer.matrix();
+  if (stays && unplaced == held.unplaced) return;
+  held.unplaced = unplaced;
+  if (!stays) {
     held.T_merge_layer = T_merge_layer;
-    held.out_of_reach = merge_.move_layer(id, T_merge_layer) != MergeResult::kDone;
+    held.out_of_reach = merge_.move_layer(held.replica->id(), T_merge_layer) != MergeResult::kDone;
     placements_refused_ += held.out_of_reach ? 1 : 0;
-    show(held);
   }
+  show(held);
 }
 
 std::size_t LoadedLayers::rest(std::size_t most) {
   std::size_t rested = 0;
   for (auto& [id, held] : layers_) {
-    rested += rest_quiet_regions(held.replica, held.rest, most - rested);
+    rested += rest_quiet_regions(*held.replica, held.rest, most - rested);
   }
   return rested;
 }
 
 std::vector<LoadedLayer> LoadedLayers::list() const {
   std::vector<LoadedLayer> all;
-  for (const auto& [id, held] : layers_) all.push_back(report_of(held));
+  for (const auto& [id, held] : layers_) {
+    if (held.loaded) all.push_back(report_of(held));
+  }
   return all;
+}
+
+std::optional<LoadedLayer> LoadedLayers::find(const LayerId& id) const {
+  const auto found = layers_.find(id);
+  return found == layers_.end() ? std::nullopt : std::optional(report_of(found->second));
+}
+
+const Replica* LoadedLayers::replica(const LayerId& id) const {
+  const auto found = layers_.find(id);
+  return found == layers_.end() ? nullptr : found->second.replica;
 }
 
 std::uint64_t LoadedLayers::poses_refused() const {
   std::uint64_t refused = placements_refused_;
-  for (const auto& [id, held] : layers_) refused += held.replica.pose().refused();
+  for (const auto& [id, held] : layers_) refused += held.replica->pose().refused();
   return refused;
 }
 
-LoadedLayers::Held* LoadedLayers::find(const LayerId& id) {
+LoadedLayers::Held* LoadedLayers::find_held(const LayerId& id) {
   const auto found = layers_.find(id);
   return found == layers_.end() ? nullptr : &found->second;
 }
 
 void LoadedLayers::show(const Held& held) {
-  const LayerId& id = held.replica.id();
-  held.retracted || held.out_of_reach ? merge_.retract_layer(id) : merge_.restore_layer(id);
+  const LayerId& id = held.replica->id();
+  const bool left_out =
+      held.retracted || held.retracted_by_fleet || held.out_of_reach || held.unplaced;
+  left_out ? merge_.retract_layer(id) : merge_.restore_layer(id);
 }
 
 LoadedLayer LoadedLayers::report_of(const Held& held) {
-  const Eigen::Isometry3d T_fleet_layer = shifted(held.replica.pose().T_fleet_layer(), held.shift);
-  return {held.replica.id(),       held.file,      held.replica.resolution(), held.voxels,
-          Pose::of(T_fleet_layer), held.retracted, held.out_of_reach};
+  const Replica& replica = *held.replica;
+  const Eigen::Isometry3d T_fleet_layer = shifted(replica.pose().T_fleet_layer(), held.shift);
+  const bool retracted = held.retracted || held.retracted_by_fleet;
+  return {replica.id(),
+          held.file,
+          replica.resolution(),
+          held.voxels,
+          Pose::of(T_fleet_layer),
+          retracted,
+          held.retracted_by_fleet,
+          held.out_of_reach,
+          held.unplaced};
 }
 
 }  // namespace warren

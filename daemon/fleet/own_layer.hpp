@@ -10,6 +10,7 @@
 #include "core/layer/publishing_config.hpp"
 #include "core/layer/replica.hpp"
 #include "daemon/fleet/rest_schedule.hpp"
+#include "daemon/fleet/restored_node.hpp"
 
 namespace warren {
 
@@ -39,8 +40,15 @@ class OwnLayer {
         publisher_(config.rules),
         rest_(rest_after_ticks) {}
 
+  // As a store had it; what was held back follows from the exact codes of all its blocks, which the
+  // next tick must have.
+  OwnLayer(StoredOwnLayer stored, const PublishingConfig& config, std::uint32_t rest_after_ticks);
+
   // Its map frame lies there now.
   void move(const Eigen::Isometry3d& T_fleet_map);
+
+  // The operator's word on that, as LayerPose::update_correction() takes it.
+  bool correct(const WrittenPose& correction);
 
   // The exact codes of the blocks that changed since the last tick, none of them twice.
   void tick(std::span<const CodedBlock> changed);
@@ -53,18 +61,21 @@ class OwnLayer {
 
   const Replica& layer() const { return layer_; }
   const Eigen::Translation3d& T_map_layer() const { return T_map_layer_; }
-  const Eigen::Isometry3d& T_fleet_map() const { return T_fleet_map_; }
-  Eigen::Isometry3d T_fleet_layer() const { return T_fleet_map_ * T_map_layer_; }
+  // Corrected.
+  const Eigen::Isometry3d& T_fleet_map() const { return corrected_T_fleet_map_; }
+  Eigen::Isometry3d T_fleet_layer() const { return corrected_T_fleet_map_ * T_map_layer_; }
   const DiffTraffic& traffic() const { return traffic_; }
   std::size_t blocks_held_back() const { return publisher_.blocks_held_back(); }
   std::size_t held_back_bytes() const { return publisher_.memory_bytes(); }
 
  private:
   void publish(std::span<const CodedBlock> blocks);
+  void apply_correction();
 
   PublishingConfig config_;
   Eigen::Translation3d T_map_layer_;
   Eigen::Isometry3d T_fleet_map_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d corrected_T_fleet_map_ = Eigen::Isometry3d::Identity();
   bool is_placed_ = false;
   Replica layer_;
   Publisher publisher_;

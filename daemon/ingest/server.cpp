@@ -19,14 +19,15 @@ IngestLimits limits_of(const Config& config) {
 
 }  // namespace
 
-IngestServer::IngestServer(asio::io_context& io, int listening, const Config& config,
+IngestServer::IngestServer(asio::io_context& io, std::optional<int> listening, const Config& config,
                            Mapper& mapper)
     : io_(io),
-      acceptor_(io, asio::local::stream_protocol(), listening),
+      acceptor_(io),
       accept_again_(io),
       limits_(limits_of(config)),
       config_(config.ingest),
       mapper_(mapper) {
+  if (listening) acceptor_.assign(asio::local::stream_protocol(), *listening);
   for (const std::string& sensor : limits_.sensors) status_.sensors[sensor];
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <asio/io_context.hpp>
 #include <asio/local/stream_protocol.hpp>
@@ -20,10 +21,13 @@ namespace warren {
 // back. Everything here runs on the io_context's one thread; only receipts come from the mapper's.
 class IngestServer : private IngestSessionOwner {
  public:
-  // `listening` is a descriptor that listens already; the server closes it.
-  IngestServer(asio::io_context& io, int listening, const Config& config, Mapper& mapper);
+  // `listening` is a descriptor that listens already; the server closes it. None: nobody comes.
+  IngestServer(asio::io_context& io, std::optional<int> listening, const Config& config,
+               Mapper& mapper);
 
-  void start() { accept(); }
+  void start() {
+    if (acceptor_.is_open()) accept();
+  }
   // Takes over what a reload may change: the sensors and the queue's length.
   void reconfigure(const Config& config);
   void deliver(ClientId client, const std::string& sensor, const ScanReceipt& receipt);

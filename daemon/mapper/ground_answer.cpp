@@ -31,7 +31,9 @@ tl::expected<GroundAnswer, std::string> answer_ground(const TerrainView& view,
   }
   GroundAnswer answer;
   answer.ground = ground(view, query);
-  answer.validity = validity(answer.ground, question.stair_capable);
+  ValidityRule rule;
+  rule.unknown_up_to = question.unknown_up_to;
+  answer.validity = validity(answer.ground, question.stair_capable, rule);
   return answer;
 }
 

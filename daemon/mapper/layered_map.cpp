@@ -65,6 +65,7 @@ tl::expected<std::uint64_t, std::string> LayeredMap::integrate(Scan scan, std::u
       pipeline_.run(*prepared, in_layer(scan.gravity_map), into.voxels).integration;
   ++into.scans;
   into.gravity_map = scan.gravity_map;
+  into.position_map = sensor_position_map(scan);
 
   for (std::size_t i = 0; i < kRejectionCount; ++i)
     rejected_[i] += rejected[i] + report.rejected[i];
@@ -95,8 +96,9 @@ tl::expected<Layer*, std::string> LayeredMap::open_layer(const Scan& scan,
   }
   // A copy leaves the scratch memory of integration behind: frozen layers need none.
   if (!layers_.empty()) layers_.back()->voxels = SelfMap(layers_.back()->voxels);
-  layers_.push_back(std::make_unique<Layer>(
-      Layer{frame_epoch, *origin, SelfMap(config_), 0, Pose{}, scan.gravity_map}));
+  layers_.push_back(std::make_unique<Layer>(Layer{
+      next_number_, frame_epoch, *origin, SelfMap(config_), 0, T_fleet_map_, scan.gravity_map}));
+  ++next_number_;
   return layers_.back().get();
 }
 
@@ -124,6 +126,27 @@ tl::expected<GroundAnswer, std::string> LayeredMap::ground(const GroundQuestion&
                        layer->gravity_map, question);
 }
 
+void LayeredMap::restore(StoredMap stored) {
+  next_number_ = stored.next_number;
+  for (auto& [head, voxels] : stored.layers) {
+    layers_.push_back(
+        std::make_unique<Layer>(Layer{head.number, head.frame_epoch, head.origin, std::move(voxels),
+                                      head.scans, head.T_fleet_map, head.gravity_map}));
+    layers_.back()->stored = head.cursor;
+  }
+}
+
+SelfLayerWrite LayeredMap::write_of(Layer& layer) const {
+  SelfLayerWrite write{{layer.number, layer.frame_epoch, layer.origin, config_, layer.scans,
+                        layer.voxels.cursor(), layer.T_fleet_map, layer.gravity_map},
+                       {}};
+  for (const BlockKey& key : layer.voxels.blocks_changed_since(layer.stored)) {
+    if (auto block = layer.voxels.export_block(key)) write.blocks.push_back(std::move(*block));
+  }
+  layer.stored = layer.voxels.cursor();
+  return write;
+}
+
 std::vector<LayerChanges> LayeredMap::take_changes() {
   std::vector<LayerChanges> changes;
   for (std::size_t i = 0; i < layers_.size(); ++i) {
@@ -131,8 +154,9 @@ std::vector<LayerChanges> LayeredMap::take_changes() {
     const std::uint32_t now = layer.voxels.cursor();
     const bool is_current = i + 1 == layers_.size();
     if (layer.handed_over == now && !is_current) continue;
-    changes.push_back({static_cast<std::uint32_t>(i), layer.origin, layer.T_fleet_map,
-                       layer.gravity_map, blocks_changed_since(layer.voxels, layer.handed_over)});
+    changes.push_back({layer.number, layer.origin, layer.T_fleet_map, layer.gravity_map,
+                       blocks_changed_since(layer.voxels, layer.handed_over), layer.position_map});
+    if (is_stored_) changes.back().to_store = write_of(layer);
     layer.handed_over = now;
   }
   return changes;

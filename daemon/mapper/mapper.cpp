@@ -17,12 +17,14 @@ double thread_cpu_ms() {
 }  // namespace
 
 Mapper::Mapper(const MappingConfig& config, SensorFilters filters, std::size_t queue_scans,
-               Dependencies dependencies)
+               Dependencies dependencies, StoredMap stored)
     : dependencies_(std::move(dependencies)),
       queue_(queue_scans),
       map_(config),
-      filters_(std::move(filters)),
-      thread_([this] { run(); }) {}
+      filters_(std::move(filters)) {
+  map_.restore(std::move(stored));
+  thread_ = std::thread([this] { run(); });
+}
 
 Mapper::~Mapper() {
   finish([](const auto&) {});

@@ -45,7 +45,7 @@ class Mapper {
   };
 
   Mapper(const MappingConfig& config, SensorFilters filters, std::size_t queue_scans,
-         Dependencies dependencies);
+         Dependencies dependencies, StoredMap stored = {});
   // Integrates what is queued first.
   ~Mapper();
   Mapper(const Mapper&) = delete;

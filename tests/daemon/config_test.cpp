@@ -8,6 +8,7 @@
 #include "daemon/config/load.hpp"
 #include "daemon/config/print.hpp"
 #include "daemon/config/value.hpp"
+#include "transport/udp/address_text.hpp"
 
 namespace warren {
 namespace {
@@ -46,6 +47,13 @@ Config unusual_config() {
   rear.body_box_low_m = Eigen::Vector3d(-1.5, -0.25, -100.0);
   rear.body_box_high_m = Eigen::Vector3d(0.0, 1e-5, 100.0);
   config.sensors.push_back(rear);
+  config.node.fleet_T_map = {-12.5, 1e-3, 1e6, -90.0};
+  config.mesh = {"/etc/a key", 0, 1, true, 0.0, {}};
+  MeshInterfaceConfig radio{"wlx0", false, true, false, true, 576, 50.5, {}};
+  radio.seeds = {*mesh::parse_mesh_address("10.9.0.2:7717"),
+                 *mesh::parse_mesh_address("[fe80::1]:7718")};
+  config.mesh.interfaces = {radio, MeshInterfaceConfig{}};
+  config.share = {SharePolicyChoice::kNear, 12.0};
   return config;
 }
 
@@ -58,17 +66,21 @@ TEST_CASE("an empty file is the defaults") {
   CHECK(*parse_config("node:\nmap:\n  sensor_model:\n", "x") == Config{});
 }
 
-TEST_CASE("the shipped robot.yaml is the commented print of the defaults") {
-  const std::filesystem::path file = std::filesystem::path(WARREN_SOURCE_DIR) / "config/robot.yaml";
-  const auto loaded = load_config(file);
-  REQUIRE_MESSAGE(loaded.has_value(), join_lines(loaded.error()));
-  CHECK(*loaded == Config{});
-  CHECK_MESSAGE(text_of(file) == print_sample(Config{}),
-                "regenerate it: warrend --print-sample >config/robot.yaml");
+TEST_CASE("the shipped configs are the commented prints of the defaults") {
+  const std::filesystem::path folder = std::filesystem::path(WARREN_SOURCE_DIR) / "config";
+  for (const auto& [name, defaults] :
+       {std::pair{"robot", Config{}}, std::pair{"base", Config::of_base()}}) {
+    CAPTURE(name);
+    const auto loaded = load_config(folder / (std::string(name) + ".yaml"));
+    REQUIRE_MESSAGE(loaded.has_value(), join_lines(loaded.error()));
+    CHECK(*loaded == defaults);
+    CHECK_MESSAGE(text_of(folder / (std::string(name) + ".yaml")) == print_sample(defaults),
+                  "regenerate it: warrend --print-sample ROLE >config/ROLE.yaml");
+  }
 }
 
 TEST_CASE("what is printed loads back equal") {
-  for (const Config& config : {Config{}, unusual_config()}) {
+  for (const Config& config : {Config{}, Config::of_base(), unusual_config()}) {
     for (const std::string& text : {print_config(config), print_sample(config)}) {
       const auto loaded = parse_config(text, "printed");
       REQUIRE_MESSAGE(loaded.has_value(), join_lines(loaded.error()));
@@ -121,7 +133,8 @@ TEST_CASE("a fault names file, line, key, value and what is allowed") {
 }
 
 TEST_CASE("sensors are checked one by one") {
-  check_fault("sensors: []\n", "robot.yaml:1: sensors: must be a list of 1 to 16 sensors");
+  check_fault("sensors: []\n", "robot.yaml:1: sensors: a robot needs at least one");
+  check_fault("sensors: 5\n", "robot.yaml:1: sensors: must be a list of at most 16 sensors");
   check_fault("sensors:\n  - name: a\n  - name: a\n",
               "robot.yaml:3: sensors[1].name: 'a' is taken by a sensor above");
   check_fault("sensors:\n  - min_range_m: 1\n",
@@ -134,6 +147,57 @@ TEST_CASE("sensors are checked one by one") {
               "robot.yaml:4: sensors[0].carve_no_returns: needs max_range_m: how far to carve");
   check_fault("sensors:\n  - name: a\n    body_box:\n      low_m: [0, 0, 0]\n",
               "robot.yaml:4: sensors[0].body_box.low_m: a body box needs both low_m and high_m");
+}
+
+TEST_CASE("a base has no sensors, and needs to name none") {
+  const auto base = parse_config("node: {role: base}\n", "base.yaml");
+  REQUIRE_MESSAGE(base.has_value(), join_lines(base.error()));
+  CHECK(base->sensors.empty());
+  CHECK(parse_config("sensors: []\nnode: {role: base}\n", "base.yaml").has_value());
+  check_fault("node: {role: base}\nsensors:\n  - name: a\n",
+              "robot.yaml:2: sensors: a base has none: leave them out, or let node.role be robot");
+}
+
+TEST_CASE("the mesh is off until an interface is named, and interfaces are checked one by one") {
+  CHECK_FALSE(Config{}.mesh.is_on());
+  const auto config = parse_config(
+      "mesh:\n  interfaces:\n    - name: wlan0\n      ceiling_kbit_s: 250\n"
+      "      seeds: ['10.0.0.1:7717']\n",
+      "robot.yaml");
+  REQUIRE_MESSAGE(config.has_value(), join_lines(config.error()));
+  CHECK(config->mesh.is_on());
+  CHECK(config->mesh.interfaces.front().ceiling_kbit_s == 250.0);
+  CHECK(config->mesh.interfaces.front().seeds.size() == 1);
+
+  const std::string one = "mesh:\n  interfaces:\n    - name: wlan0\n";
+  check_fault("mesh: {interfaces: wlan0}\n",
+              "robot.yaml:1: mesh.interfaces: must be a list of at most 8 interfaces");
+  check_fault("mesh:\n  interfaces:\n    - ipv6: true\n",
+              "robot.yaml:3: mesh.interfaces[0].name: missing: every interface needs one");
+  check_fault(one + "    - name: wlan0\n",
+              "robot.yaml:4: mesh.interfaces[1].name: 'wlan0' is taken by an interface above");
+  check_fault(one + "      ipv4: false\n",
+              "robot.yaml:4: mesh.interfaces[0].ipv4: must be true where ipv6 is not");
+  check_fault(one + "      ipv4: false\n      ipv6: true\n      broadcast: true\n",
+              "robot.yaml:6: mesh.interfaces[0].broadcast: needs ipv4");
+  check_fault(one + "      mtu_bytes: 500\n",
+              "robot.yaml:4: mesh.interfaces[0].mtu_bytes: '500' is out of range; allowed: 576 to "
+              "9000, whole numbers");
+  check_fault(one + "      seeds: [base:7717]\n",
+              "robot.yaml:4: mesh.interfaces[0].seeds: '[base:7717]' has something that is no "
+              "address and port; allowed: a list of at most 64 addresses with ports, e.g. "
+              "['10.9.0.2:7717', '[fe80::1]:7717']");
+  check_fault("mesh: {port: 7717}\n",
+              "robot.yaml:1: mesh.port: is mesh.group_port too; they need two");
+}
+
+TEST_CASE("a surveyed start is a level pose in the fleet frame") {
+  const auto config =
+      parse_config("node: {fleet_T_map: {x_m: 3, y_m: -1, z_m: 0.5, yaw_deg: 90}}\n", "x");
+  REQUIRE(config.has_value());
+  const Pose pose = config->node.fleet_T_map.pose();
+  const Eigen::Vector3d moved = *pose.checked() * Eigen::Vector3d(2.0, 0.0, 0.0);
+  CHECK(moved.isApprox(Eigen::Vector3d(3.0, 1.0, 0.5)));
 }
 
 TEST_CASE("contradictions are faults") {
@@ -173,7 +237,7 @@ TEST_CASE("a stray comma, at which yaml-cpp finds documents without end, is one 
 
 TEST_CASE("control characters of keys and values do not reach the operator's terminal") {
   check_fault("node:\n  role: \"a\\nb\"\n",
-              "robot.yaml:2: node.role: 'a?b' is none of these; allowed: robot");
+              "robot.yaml:2: node.role: 'a?b' is none of these; allowed: robot, base");
   check_fault("\"\\e[2J\": 1\n", "robot.yaml:1: ?[2J: unknown key");
 }
 
@@ -188,14 +252,16 @@ TEST_CASE("a reload takes what it can and names what it cannot") {
   wanted.log.level = LogLevel::kDebug;
   wanted.sensors.front().max_range_m = 5.0;
   wanted.map.resolution_m = 0.2;
+  wanted.mesh.interfaces.resize(1);
   const ConfigChanges changes = compare_configs(Config{}, wanted);
   CHECK(changes.effective == std::vector<std::string>{"log.level", "sensors"});
-  CHECK(changes.needs_restart == std::vector<std::string>{"map.resolution_m"});
+  CHECK(changes.needs_restart == std::vector<std::string>{"map.resolution_m", "mesh.interfaces"});
 
   const Config result = reloaded(Config{}, wanted);
   CHECK(result.log.level == LogLevel::kDebug);
   CHECK(result.sensors == wanted.sensors);
   CHECK(result.map == Config{}.map);
+  CHECK(result.mesh == Config{}.mesh);
 }
 
 TEST_CASE("the terrain's settings reach the judge and the fusion of costs") {

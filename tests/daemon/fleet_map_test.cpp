@@ -213,4 +213,30 @@ TEST_CASE("a correction of the map frame moves the layers of others, not this ro
   CHECK(fleet.ground(moved)->validity == Validity::kTraversable);
 }
 
+TEST_CASE(
+    "the operator's word on an own layer moves this robot in the fleet, and others around it") {
+  FleetMap fleet = fleet_map();
+  REQUIRE(fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)}), "old.layer").has_value());
+  LayerChanges changes = changes_of({floor_block({0, 0, 0}, 1)});
+  changes.position_map = kFarOrigin.position_map(0.1) + Eigen::Vector3d(0.4, 0.4, 0.5);
+  fleet.tick({&changes, 1});
+  const LayerId id = fleet.report().current->id;
+  const Eigen::Vector3d before = *fleet.position_fleet();
+  CHECK(fleet.position_layer()->isApprox(Eigen::Vector3d(0.4, 0.4, 0.5), 1e-9));
+  const Pose moved_by{{0.0, 0.8, 0.0}, Eigen::Quaterniond::Identity()};
+  CHECK_FALSE(fleet.correct_own({id.origin, id.number + 1, 3}, {1, 9, moved_by}));
+  REQUIRE(fleet.correct_own(id, {1, 9, moved_by}));
+  CHECK_FALSE(fleet.correct_own(id, {1, 9, moved_by}));
+  CHECK(fleet.position_fleet()->isApprox(before + Eigen::Vector3d(0.0, 0.8, 0.0)));
+  CHECK(fleet.position_layer()->isApprox(Eigen::Vector3d(0.4, 0.4, 0.5), 1e-9));
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kTraversable);
+  GroundQuestion of_other = question_at(1);
+  of_other.T_map_base.translation.y() -= 0.8;
+  CHECK(fleet.ground(of_other)->validity == Validity::kTraversable);
+  // What this robot says of itself is another thing, and goes on.
+  changes.T_fleet_map.translation = {0.0, 0.8, 0.0};
+  fleet.tick({&changes, 1});
+  CHECK(fleet.position_fleet()->isApprox(before + Eigen::Vector3d(0.0, 1.6, 0.0)));
+}
+
 }  // namespace warren

@@ -99,6 +99,41 @@ TEST_CASE("a slope is too hard, and gravity is the scan's unless the question br
   CHECK(ask(tilted, upright).ground().columns_with_ground() == 16 * 12);
 }
 
+TEST_CASE("unknown ground is put up with as far as one says, in the own map and the merge-map") {
+  Config config;
+  config.layer.tick_s = 0.1;
+  RunningDaemon daemon(config);
+  take_floor(daemon, 0.0);
+  // The last of 72 rows of columns lies beyond the floor's edge at y = 2.
+  auto edge = request_at(3.0, 0.25, kFloor_m);
+  edge.mutable_ground()->set_width_m(3.6);
+  edge.mutable_ground()->set_length_m(0.3);
+  for (const auto source : {control::SELF, control::MERGE}) {
+    edge.mutable_ground()->set_source(source);
+    edge.mutable_ground()->set_unknown_up_to(0.0);
+    control::Ground strict;
+    // The merge-map has the floor after the next tick.
+    for (int asked = 0; asked < 100'000 && strict.columns_with_ground() == 0; ++asked) {
+      strict = ask(daemon, edge).ground();
+    }
+    CHECK(strict.validity() == "unknown");
+    CHECK(strict.unknown_share() > 0.01);
+    CHECK(strict.unknown_share() < 0.05);
+    edge.mutable_ground()->set_unknown_up_to(0.005);
+    CHECK(ask(daemon, edge).ground().validity() == "unknown");
+    edge.mutable_ground()->set_unknown_up_to(0.05);
+    CHECK(ask(daemon, edge).ground().validity() == "traversable");
+  }
+  const auto error_of = [&](double share) {
+    auto request = edge;
+    request.mutable_ground()->set_unknown_up_to(share);
+    return ask(daemon, request).error().text();
+  };
+  for (const double wrong : {-0.1, 1.1, std::nan("")}) {
+    CHECK(error_of(wrong).find("0 to 1") != std::string::npos);
+  }
+}
+
 TEST_CASE("questions about ground that make no sense are answered by an error") {
   RunningDaemon daemon;
   take_floor(daemon, 0.0);

@@ -95,6 +95,28 @@ TEST_CASE("a correction of the map frame keeps what the operator did to a layer"
   CHECK(fleet.ground(question_at(2))->validity == Validity::kTraversable);
 }
 
+TEST_CASE("a layer is shown if both this node and the fleet's orders allow it") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {floor_block({0, 0, 0}, 15)});
+  const Voxels before = merged(fleet);
+  const LayerId id = fleet.load(earlier_layer({floor_block({1, 0, 0}, 1)}), "old.bt")->id;
+  const Voxels with_it = merged(fleet);
+  fleet.loaded().set_retracted_by_fleet(id, true);
+  CHECK(merged(fleet) == before);
+  CHECK(fleet.loaded().find(id)->retracted);
+  CHECK(fleet.loaded().find(id)->retracted_by_fleet);
+  REQUIRE(fleet.loaded().restore(id).has_value());
+  CHECK(merged(fleet) == before);
+  REQUIRE(fleet.loaded().retract(id).has_value());
+  fleet.loaded().set_retracted_by_fleet(id, false);
+  CHECK(merged(fleet) == before);
+  CHECK_FALSE(fleet.loaded().find(id)->retracted_by_fleet);
+  REQUIRE(fleet.loaded().restore(id).has_value());
+  CHECK(merged(fleet) == with_it);
+  fleet.loaded().set_retracted_by_fleet({1, 2, 3}, true);
+  CHECK(merged(fleet) == with_it);
+}
+
 TEST_CASE("only what is loaded can be retracted, restored or moved") {
   FleetMap fleet = fleet_map();
   for (const auto& result : {fleet.loaded().retract({1, 2, 3}), fleet.loaded().restore({1, 2, 3}),
@@ -158,6 +180,65 @@ TEST_CASE("an own layer that lies beyond the newest one's reach is left out of t
   fleet.tick({&next, 1});
   CHECK(merged(fleet).size() == 512);
   CHECK(fleet.report().poses_refused > 0);
+}
+
+TEST_CASE("a copy counts once its origin has said where it lies, and follows what it says") {
+  FleetMap fleet = fleet_map();
+  tick(fleet, {floor_block({5, 5, 5}, 1)});
+  Replica copy(LayerId{99, 2, 6}, kDefaultResolution);
+  const auto added = fleet.loaded().add_copy(copy);
+  REQUIRE(added.has_value());
+  CHECK(added->unplaced);
+  CHECK_FALSE(fleet.loaded().add_copy(copy).has_value());
+  Replica writer(copy.id(), kDefaultResolution);
+  const auto write = [&](const BlockKey& key) {
+    const Revision before = writer.holdings().at(0);
+    writer.publish({{floor_block(key, 1)}});
+    const auto packet = writer.encode({{}, before});
+    REQUIRE(copy.apply(copy.id(), packet->bytes) == ApplyResult::kApplied);
+  };
+  write({0, 0, 0});
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kUnknown);
+  const Eigen::Vector3d origin = kFarOrigin.position_map(0.1);
+  copy.pose().update_origin({1, 99, {origin, Eigen::Quaterniond::Identity()}});
+  fleet.place_others();
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kTraversable);
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kUnknown);
+  write({1, 0, 0});
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kTraversable);
+  copy.pose().update_origin(
+      {2, 99, {origin + Eigen::Vector3d(0.8, 0.0, 0.0), Eigen::Quaterniond::Identity()}});
+  fleet.place_others();
+  CHECK(fleet.ground(question_at(0))->validity == Validity::kUnknown);
+  CHECK(fleet.ground(question_at(2))->validity == Validity::kTraversable);
+
+  REQUIRE(fleet.loaded().retract(copy.id()).has_value());
+  CHECK(fleet.ground(question_at(1))->validity == Validity::kUnknown);
+  write({2, 0, 0});
+  CHECK(fleet.ground(question_at(3))->validity == Validity::kUnknown);
+  const auto restored = fleet.loaded().restore(copy.id());
+  REQUIRE(restored.has_value());
+  CHECK(restored->voxels.occupied == 3 * 64);
+  CHECK(fleet.ground(question_at(3))->validity == Validity::kTraversable);
+  CHECK(fleet.loaded().find(copy.id())->file.empty());
+  CHECK(fleet.loaded().list().empty());
+}
+
+TEST_CASE("a copy that lies beyond reach at first comes in when it is moved within it") {
+  FleetMap fleet = fleet_map();
+  LayerChanges changes = changes_of({floor_block({0, 0, 0}, 1)});
+  changes.origin = {std::int64_t{1} << 40, 0, 0};
+  fleet.tick({&changes, 1});
+  Replica copy = far_layer(kFarOrigin.position_map(0.1) + Eigen::Vector3d(4.0, 0.0, 0.0));
+  const auto added = fleet.loaded().add_copy(copy);
+  REQUIRE(added.has_value());
+  CHECK(added->out_of_reach);
+  const auto own_only = merged(fleet).size();
+  changes.origin = kFarOrigin;
+  changes.number = 1;
+  fleet.tick({&changes, 1});
+  CHECK_FALSE(fleet.loaded().find(copy.id())->out_of_reach);
+  CHECK(merged(fleet).size() > own_only);
 }
 
 }  // namespace warren

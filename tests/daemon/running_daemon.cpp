@@ -34,6 +34,7 @@ RunningDaemon::RunningDaemon(Config config, Warrend::Dependencies dependencies)
   start_log(LogLevel::kOff, LogFormat::kText);
   config_.sockets.ingest.path = ingest_socket();
   config_.sockets.control.path = control_socket();
+  if (config_.store.file == Config{}.store.file) config_.store.file = file("warren.db");
   dependencies.before_scan = [this] { gate_.pass(); };
   auto started = Warrend::start(io_, config_, config_file(), std::move(dependencies));
   REQUIRE_MESSAGE(started.has_value(), started.error());

@@ -31,5 +31,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     assert(question->low_map.allFinite() && question->high_map.allFinite());
     assert((question->low_map.array() <= question->high_map.array()).all());
   }
+  if (const auto* const question = std::get_if<BlocksQuestion>(&*request)) {
+    assert(!question->box || (question->box->low.allFinite() && question->box->high.allFinite()));
+    assert(question->wait_s >= 0.0 && question->wait_s <= 60.0);
+    assert(question->rate_hz >= 0.1 && question->rate_hz <= 10.0);
+    assert(question->most_bytes >= 4096 && question->most_bytes <= 1048576);
+    if (const auto& cursor = question->cursor) {
+      assert(cursor->scope == question->scope() && cursor->since <= cursor->until);
+      assert(decode_cursor(encode_cursor(*cursor)) == *cursor);
+    }
+  }
+  if (const auto* const question = std::get_if<RaysQuestion>(&*request)) {
+    assert(!question->rays.empty() && question->rays.size() <= 1024);
+    assert(question->max_range_m > 0.0 && std::isfinite(question->max_range_m));
+    for (const MapRay& ray : question->rays) {
+      assert(ray.origin_map.allFinite());
+      assert(std::abs(ray.direction_map.norm() - 1.0) < 1e-9);
+    }
+  }
   return 0;
 }

@@ -7,17 +7,14 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/under_sanitizer.hpp"
+
 namespace warren::mesh::sim {
 namespace {
 
 // A thousand in all, in parts that ctest runs side by side. WARREN_SIM_SEED=N runs that one alone.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t kSeedsPerPart = 25;  // the same code, at a tenth of the speed
-constexpr std::uint64_t kLateMax = 6;
-#else
-constexpr std::uint64_t kSeedsPerPart = 250;
-constexpr std::uint64_t kLateMax = 50;
-#endif
+constexpr std::uint64_t kSeedsPerPart = test::kUnderSanitizer ? 25 : 250;
+constexpr std::uint64_t kLateMax = test::kUnderSanitizer ? 6 : 50;
 
 // How much later than the target it was done, in seconds.
 double run(std::uint64_t seed) {

@@ -66,17 +66,21 @@ void Simulation::start(std::size_t index) {
       if (other != index) config.interfaces.back().seeds.push_back(nodes_[other].addresses[k]);
     }
   }
-  node.endpoint = std::make_unique<Endpoint>(config, keys_, *node.source);
+  Upper* const upper = config_.upper;
+  MapSource& source = upper != nullptr ? upper->on_start(local(node), index) : *node.source;
+  node.endpoint = std::make_unique<Endpoint>(config, keys_, source);
   if (!node.store.empty()) {
     if (!node.endpoint->restore(node.store)) ledger_.fail(now_, "a store was not taken back");
     node.store = node.endpoint->save();
   }
+  if (upper != nullptr) upper->on_started(local(node), index, *node.endpoint);
   changed_[index] = true;
 }
 
 void Simulation::stop(std::size_t index) {
   nodes_[index].endpoint.reset();
   nodes_[index].source->on_restart();
+  if (config_.upper != nullptr) config_.upper->on_stop(index);
   ++nodes_[index].life;
 }
 
@@ -116,9 +120,10 @@ void Simulation::send(SimNode& node, const Datagram& datagram) {
     to = known == by_address_.end() ? static_cast<StationIndex>(index)
                                     : static_cast<StationIndex>(known->second);
   }
+  const bool checks = config_.check_datagrams;
   const auto receiver =
-      to == kEveryStation || to == index ? std::nullopt : sealed_for(to, datagram);
-  if (to != index) ledger_.on_datagram(now_, receiver, datagram.bytes);
+      !checks || to == kEveryStation || to == index ? std::nullopt : sealed_for(to, datagram);
+  if (checks && to != index) ledger_.on_datagram(now_, receiver, datagram.bytes);
   if (config_.planted == Planted::kNonceReused && now_ > MeshTime(std::chrono::seconds(2))) {
     auto other = datagram.bytes;
     other.back() ^= 1U;
@@ -133,6 +138,9 @@ void Simulation::send(SimNode& node, const Datagram& datagram) {
 void Simulation::pump(SimNode& node) {
   if (!node.endpoint) return;
   node.source->set_now(now_);
+  if (config_.upper != nullptr) {
+    config_.upper->on_turn(local(node), index_of(node), *node.endpoint);
+  }
   while (const auto datagram = node.endpoint->poll_transmit(local(node))) send(node, *datagram);
   ++node.polls;
   bool events = false;
@@ -157,15 +165,21 @@ void Simulation::deliver() {
   }
 }
 
+bool Simulation::has_turn(std::size_t index) const {
+  const MeshTime now = local(nodes_[index]);
+  return changed_[index] || nodes_[index].endpoint->next_deadline() <= now ||
+         (config_.upper != nullptr && config_.upper->next_turn(index) <= now);
+}
+
 MeshTime Simulation::next_time() const {
   MeshTime next = kNever;
   if (!actions_.empty()) next = actions_.begin()->first;
   for (const auto& network : networks_) next = std::min(next, network->next_event());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i].endpoint) continue;
-    if (changed_[i]) return now_;
-    const MeshTime deadline = nodes_[i].endpoint->next_deadline();
-    if (deadline <= local(nodes_[i])) return now_;
+    if (has_turn(i)) return now_;
+    MeshTime deadline = nodes_[i].endpoint->next_deadline();
+    if (config_.upper != nullptr) deadline = std::min(deadline, config_.upper->next_turn(i));
     if (deadline != kNever) next = std::min(next, deadline - nodes_[i].clock_offset);
   }
   return std::max(next, now_);
@@ -179,7 +193,9 @@ void Simulation::check_memory() {
   if (config_.planted == Planted::kLeak) planted_leak_ += config_.memory_max / 10;
   for (SimNode& node : nodes_) {
     if (node.endpoint) {
-      ledger_.on_memory(now_, node.id, node.endpoint->memory_bytes() + planted_leak_,
+      const std::size_t above =
+          config_.upper != nullptr ? config_.upper->memory_bytes(node.id - 1) : 0;
+      ledger_.on_memory(now_, node.id, node.endpoint->memory_bytes() + above + planted_leak_,
                         config_.memory_max);
     }
     if (node.polls > kPollsPerSecondMax * seconds) {
@@ -204,7 +220,7 @@ bool Simulation::run_until(MeshTime end, const std::function<bool()>& done) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       SimNode& node = nodes_[i];
       if (!node.endpoint) continue;
-      if (!changed_[i] && node.endpoint->next_deadline() > local(node)) continue;
+      if (!has_turn(i)) continue;
       changed_[i] = false;
       pump(node);
     }

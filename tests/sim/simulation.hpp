@@ -11,6 +11,7 @@
 
 #include "tests/sim/ledger.hpp"
 #include "tests/sim/sim_source.hpp"
+#include "tests/sim/upper.hpp"
 #include "tools/link/link_model.hpp"
 #include "transport/endpoint/endpoint.hpp"
 
@@ -59,6 +60,8 @@ class Simulation {
     std::size_t members_max = 256;
     std::size_t memory_max = 40'000'000;
     Planted planted = Planted::kNone;
+    Upper* upper = nullptr;       // outlives the simulation; none: nodes send what they are told to
+    bool check_datagrams = true;  // opens each and keeps its digest
   };
 
   explicit Simulation(const Config& config);
@@ -82,6 +85,7 @@ class Simulation {
   void stop(std::size_t index);  // as by kill -9: what the store does not have is lost
   void lose_store(std::size_t index);
   void change_address(std::size_t index, std::size_t interface);
+  void touch(std::size_t index) { changed_[index] = true; }  // it is asked for what it has to do
   void step_clock(std::size_t index, Duration ahead);
 
   bool send_parcel(std::size_t from, std::size_t to, ParcelClass priority, std::size_t bytes);
@@ -105,6 +109,7 @@ class Simulation {
   void on_parcel(SimNode& node, const ParcelArrived& parcel);
   void deliver();
   MeshTime next_time() const;
+  bool has_turn(std::size_t index) const;
   void check_memory();
 
   Config config_;

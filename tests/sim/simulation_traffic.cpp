@@ -91,6 +91,9 @@ void Simulation::on_parcel(SimNode& node, const ParcelArrived& parcel) {
 }
 
 void Simulation::on_event(SimNode& node, MeshEvent&& event) {
+  if (config_.upper != nullptr) {
+    return config_.upper->on_event(local(node), index_of(node), std::move(event));
+  }
   const auto latency = [&](const std::vector<std::uint8_t>& bytes, bool urgent) {
     const auto stamp = read_stamped(bytes);
     return stamp ? now_ - sent_at_[name_of(stamp->from, stamp->number, urgent)] : Duration{};

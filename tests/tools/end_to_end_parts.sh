@@ -26,6 +26,8 @@ sockets:
     path: $work/ingest.sock
   control:
     path: $work/control.sock
+store:
+  file: $work/warren.db
 ingest:
   queue_scans: ${1:-8}
 sensors:
@@ -47,6 +49,9 @@ stop_daemon() {
   wait "$daemon" || fail "warrend ended with $?"
   daemon=
 }
+
+# The next life of the daemon begins with nothing.
+forget_store() { rm -f "$work"/warren.db*; }
 
 simulate() { # SUBCOMMAND SWEEPS [ARG..]
   local subcommand=$1 sweeps=$2

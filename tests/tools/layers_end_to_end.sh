@@ -56,6 +56,7 @@ case_the_layer_is_watched_and_an_earlier_map_loaded() {
   wait "$watch" || fail "watch ended with $?: $(cat "$work/watched")"
   grep -qE 'in all [0-9]+ s: diff-maps [0-9.]+ kB/s, .* \([0-9.]+ times\)' "$work/watched" ||
     fail "watched: $(cat "$work/watched")"
+  forget_store
   start_daemon
   "${ctl[@]}" map load "$work/old.bt" >"$work/loaded"
   grep -qE '[1-9][0-9]* occupied' "$work/loaded" || fail "$(cat "$work/loaded")"
@@ -116,6 +117,7 @@ case_a_loaded_layer_is_retracted_restored_and_moved() {
   replay --rate max >/dev/null || fail "replay: $(cat "$work/replay.err")"
   "${ctl[@]}" map save "$work/old.bt" >/dev/null
   stop_daemon
+  forget_store
   rm -r "$work/scene"
   scene 3
   start_daemon

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/warrenctl/fleet_cli.hpp"
+
 namespace warren {
 namespace {
 
@@ -14,12 +16,15 @@ struct Options {
   std::string socket = "/run/warren/control.sock";
   bool json = false;
   bool merge = false;
+  bool watch = false;
+  std::string of;
   std::string file;
   std::string colours = "height";
   std::string layer;
   std::array<double, 4> shift{};  // x y z yaw
   GroundCommand ground;
   CellsCommand cells;
+  RayCommand ray;
   std::string other_file;
   std::uint32_t origin = 0;
   bool regions = false;
@@ -63,6 +68,21 @@ CLI::App* add_ground(CLI::App& query, Options& options) {
   command->add_option("--below", ground.below_m, "To so far below it (0.7), m");
   command->add_flag("--merge", ground.on_merge, "On the merge-map: what others know counts too");
   command->add_flag("--stair-capable", ground.stair_capable, "The robot can climb stairs");
+  command
+      ->add_option("--unknown-up-to", ground.unknown_up_to,
+                   "Share of the footprint whose cost may be unknown")
+      ->check(CLI::Range(0.0, 1.0));
+  return command;
+}
+
+CLI::App* add_ray(CLI::App& query, Options& options) {
+  auto* const command = add_with_json(query, "ray", "What a ray meets first", options);
+  RayCommand& ray = options.ray;
+  command->add_option("RAY", ray.ray_map, "x y z of its origin, map, m; x y z of its direction")
+      ->required();
+  command->add_option("--max-range", ray.max_range_m, "Look so far, m")->capture_default_str();
+  command->add_flag("--merge", ray.on_merge, "On the merge-map: what others know counts too");
+  command->add_flag("--through-unknown", ray.through_unknown, "Only what is occupied stops it");
   return command;
 }
 
@@ -80,7 +100,12 @@ class MapCommands {
                      "Of a .png: height, cost of the ground, or robot")
         ->check(CLI::IsMember({"height", "cost", "robot"}))
         ->capture_default_str();
-    save_->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
+    auto* const merge =
+        save_->add_flag("--merge", options.merge, "The merge-map: what others know counts too");
+    save_
+        ->add_option("--of", options.of,
+                     "Another node: its newest layer as it is copied here; or merge")
+        ->excludes(merge);
     load_ = map->add_subcommand("load", "Put a layer of an earlier mission into the merge-map");
     load_->add_option("FILE", options.file, "Ending in .layer, .bt or .ot")->required();
     retract_ = add_on_layer(*map, "retract", "Take a loaded layer out of this node's merge-map");
@@ -97,7 +122,10 @@ class MapCommands {
     const Options& given = options_;
     const auto& [x_m, y_m, z_m, yaw_deg] = given.shift;
     if (info_->parsed()) return MapInfoCommand{given.json};
-    if (save_->parsed()) return MapSaveCommand{given.file, given.colours, given.merge};
+    if (save_->parsed()) {
+      const bool of_merge = given.merge || given.of == "merge";
+      return MapSaveCommand{given.file, given.colours, of_merge, of_merge ? "" : given.of};
+    }
     if (load_->parsed()) return MapLoadCommand{given.file};
     if (retract_->parsed()) return MapRetractCommand{given.layer};
     if (restore_->parsed()) return MapRestoreCommand{given.layer};
@@ -110,7 +138,7 @@ class MapCommands {
     auto* const command = map.add_subcommand(name, text);
     command
         ->add_option("LAYER", options_.layer,
-                     "Its file, or the beginning of its id as status shows it")
+                     "Its file, the name of the node that writes it, or the beginning of its id")
         ->required();
     return command;
   }
@@ -187,12 +215,21 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
                                 "x y z, map, m", 3, options);
   auto* const box = add_cells(*query, "box", "The codes of all cells that a box touches", "CORNERS",
                               "Lowest x y z, highest x y z, map, m", 6, options);
+  auto* const ray = add_ray(*query, options);
   auto* const config = app.add_subcommand("config", "Configuration")->require_subcommand(1);
   auto* const check = config->add_subcommand("check", "Tell all faults of a file");
   check->add_option("FILE", options.file)->required();
   auto* const print = config->add_subcommand("print", "Every key, of FILE or of the daemon");
   print->add_option("FILE", options.file);
   const LayerCommands layer(app, options);
+  auto* const fleet = app.add_subcommand("fleet", "The fleet")->require_subcommand(1);
+  auto* const fleet_status = add_with_json(
+      *fleet, "status", "Who is there, and how far their maps have come here", options);
+  fleet_status->add_flag("--watch", options.watch, "Again every second, until the daemon ends");
+  FleetCli fleet_cli(app, *fleet);
+  auto* const key = app.add_subcommand("key", "The fleet's key")->require_subcommand(1);
+  auto* const key_new = key->add_subcommand("new", "Make one; every member needs a copy of it");
+  key_new->add_option("FILE", options.file)->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -208,7 +245,14 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
     options.cells.json = options.json;
     return options.cells;
   }
+  if (ray->parsed()) {
+    options.ray.json = options.json;
+    return options.ray;
+  }
   if (const auto command = layer.parsed()) return *command;
+  if (fleet_status->parsed()) return FleetStatusCommand{options.json, options.watch};
+  if (const auto command = fleet_cli.parsed()) return *command;
+  if (key_new->parsed()) return KeyNewCommand{options.file};
   if (check->parsed()) return ConfigCheckCommand{options.file};
   return ConfigPrintCommand{options.file};
 }

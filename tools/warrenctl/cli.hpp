@@ -8,7 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "tools/warrenctl/fleet_commands.hpp"
 #include "tools/warrenctl/layer_commands.hpp"
+#include "tools/warrenctl/ray_command.hpp"
 
 namespace warren {
 
@@ -22,11 +24,20 @@ struct MapSaveCommand {
   std::filesystem::path file;
   std::string colours = "height";  // of a picture: height, cost, robot
   bool of_merge = false;
+  std::string of{};  // another node's name
+};
+struct FleetStatusCommand {
+  bool json = false;
+  bool watch = false;  // again every second
+};
+struct KeyNewCommand {
+  std::filesystem::path file;
 };
 struct MapLoadCommand {
   std::filesystem::path file;
 };
-// LAYER is the beginning of a loaded layer's id as status shows it, or its file.
+// LAYER is the beginning of a layer's id as status shows it, the file of a loaded one, or the name
+// of the node that writes it.
 struct MapRetractCommand {
   std::string layer;
 };
@@ -48,6 +59,7 @@ struct GroundCommand {
   std::optional<double> above_m;
   std::optional<double> below_m;
   bool stair_capable = false;
+  double unknown_up_to = 0.0;
   bool json = false;
 };
 struct CellsCommand {
@@ -70,7 +82,8 @@ using CtlCommand =
     std::variant<StatusCommand, MapInfoCommand, MapSaveCommand, GroundCommand, ConfigCheckCommand,
                  ConfigPrintCommand, LayerExportCommand, LayerImportCommand, LayerDiffCommand,
                  LayerDigestCommand, LayerWatchCommand, LayerFlushCommand, MapLoadCommand,
-                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand, ExitCommand>;
+                 MapRetractCommand, MapRestoreCommand, MapMoveCommand, CellsCommand,
+                 FleetStatusCommand, FleetCommand, KeyNewCommand, RayCommand, ExitCommand>;
 
 struct CtlArguments {
   std::string socket;

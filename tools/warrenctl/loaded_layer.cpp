@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warrenctl/loaded_layer.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "tools/warrenctl/ask.hpp"
 #include "tools/warrenctl/tables.hpp"
@@ -10,33 +13,74 @@
 namespace warren {
 namespace {
 
-bool is_called(const control::LoadedLayer& layer, const std::string& name) {
-  if (name.empty()) return false;
-  return name == layer.file() || name == std::filesystem::path(layer.file()).filename() ||
-         text_of(layer.layer()).rfind(name, 0) == 0;
+// A layer, and what an operator may call it.
+struct Called {
+  control::LayerId id;
+  std::vector<std::string> names;
+
+  bool is(const std::string& name) const {
+    if (name.empty()) return false;
+    return std::find(names.begin(), names.end(), name) != names.end() ||
+           text_of(id).rfind(name, 0) == 0;
+  }
+};
+
+tl::expected<std::vector<Called>, std::string> loaded_layers(const std::string& socket) {
+  control::Request request;
+  request.mutable_status();
+  const auto response = ask_daemon(socket, request);
+  if (!response) return tl::unexpected(response.error());
+  std::vector<Called> layers;
+  for (const control::LoadedLayer& layer : response->status().loaded()) {
+    layers.push_back(
+        {layer.layer(), {layer.file(), std::filesystem::path(layer.file()).filename()}});
+  }
+  return layers;
+}
+
+// Those of others that the mesh keeps here; by a node's name the newest of them is meant.
+tl::expected<std::vector<Called>, std::string> copied_layers(const std::string& socket) {
+  control::Request request;
+  request.mutable_fleet_status();
+  const auto response = ask_daemon(socket, request);
+  if (!response) return tl::unexpected(response.error());
+  std::vector<Called> layers;
+  for (const control::FleetNode& node : response->fleet_status().nodes()) {
+    std::optional<std::size_t> newest;
+    for (const control::FleetLayer& layer : node.layers()) {
+      if (layer.own()) continue;
+      layers.push_back({layer.layer(), {}});
+      const bool newer = !newest || layers[*newest].id.number() <= layer.layer().number();
+      if (newer) newest = layers.size() - 1;
+    }
+    if (newest && !node.name().empty()) layers[*newest].names.push_back(node.name());
+  }
+  return layers;
 }
 
 }  // namespace
 
 tl::expected<control::LayerId, std::string> find_loaded_layer(const std::string& socket,
                                                               const std::string& name) {
-  control::Request request;
-  request.mutable_status();
-  const auto response = ask_daemon(socket, request);
-  if (!response) return tl::unexpected(response.error());
-  const control::LoadedLayer* found = nullptr;
-  for (const control::LoadedLayer& layer : response->status().loaded()) {
-    if (!is_called(layer, name)) continue;
+  auto layers = loaded_layers(socket);
+  if (!layers) return tl::unexpected(layers.error());
+  const auto copied = copied_layers(socket);
+  if (!copied) return tl::unexpected(copied.error());
+  layers->insert(layers->end(), copied->begin(), copied->end());
+  const Called* found = nullptr;
+  for (const Called& layer : *layers) {
+    if (!layer.is(name)) continue;
     if (found != nullptr) {
-      return tl::unexpected(name + " may be " + text_of(found->layer()) + " or " +
-                            text_of(layer.layer()) + ": give more of the id");
+      return tl::unexpected(name + " may be " + text_of(found->id) + " or " + text_of(layer.id) +
+                            ": give more of the id");
     }
     found = &layer;
   }
   if (found == nullptr) {
-    return tl::unexpected("no loaded layer is called " + name + "; status lists them");
+    return tl::unexpected("no loaded layer is called " + name +
+                          "; status and fleet status list them");
   }
-  return found->layer();
+  return found->id;
 }
 
 }  // namespace warren

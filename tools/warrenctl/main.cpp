@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <iostream>
 #include <numbers>
+#include <thread>
 
 #include "daemon/config_commands.hpp"
+#include "daemon/key_file.hpp"
 #include "tools/warrenctl/ask.hpp"
 #include "tools/warrenctl/cli.hpp"
+#include "tools/warrenctl/fleet_table.hpp"
 #include "tools/warrenctl/layer_watch.hpp"
 #include "tools/warrenctl/loaded_layer.hpp"
 #include "tools/warrenctl/tables.hpp"
@@ -18,6 +22,7 @@ namespace {
 using namespace warren;
 
 constexpr int kExitFailure = 1;
+const std::string kClearScreen = "\x1b[H\x1b[2J";
 
 // Asks, then shows what `show` makes of the response.
 template <typename Show>
@@ -42,6 +47,7 @@ control::Request request_of(const GroundCommand& command) {
   ground.set_width_m(command.width_m);
   ground.set_stair_capable(command.stair_capable);
   ground.set_source(command.on_merge ? control::MERGE : control::SELF);
+  ground.set_unknown_up_to(command.unknown_up_to);
   if (command.above_m) ground.set_above_m(*command.above_m);
   if (command.below_m) ground.set_below_m(*command.below_m);
   return request;
@@ -87,6 +93,7 @@ struct Executor {
     request.mutable_map_save()->set_path(std::filesystem::absolute(command.file).string());
     request.mutable_map_save()->set_colours(colours_of(command.colours));
     if (command.of_merge) request.mutable_map_save()->set_source(control::MERGE);
+    request.mutable_map_save()->set_of(command.of);
     return ask_and_show(socket, request, [](const control::Response& response) {
       return sentence_of(response.map_saved());
     });
@@ -131,6 +138,11 @@ struct Executor {
       return command.json ? json_of(response.cells()) : table_of(response.cells());
     });
   }
+  int operator()(const RayCommand& command) const {
+    return ask_and_show(socket, request_of(command), [&](const control::Response& response) {
+      return command.json ? json_of(response.rays()) : sentence_of(response.rays());
+    });
+  }
   int operator()(const ConfigCheckCommand& command) const {
     return check_config_command(command.file);
   }
@@ -152,6 +164,31 @@ struct Executor {
     return ask_and_show(socket, request, [](const control::Response& response) {
       return sentence_of(response.layer_flushed());
     });
+  }
+  int operator()(const FleetStatusCommand& command) const {
+    control::Request request;
+    request.mutable_fleet_status();
+    const auto show = [&](const control::Response& response) {
+      if (command.json) return json_of(response.fleet_status());
+      return (command.watch ? kClearScreen : "") + table_of(response.fleet_status());
+    };
+    int code = ask_and_show(socket, request, show);
+    while (command.watch && code == 0) {
+      std::cout << std::flush;
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      code = ask_and_show(socket, request, show);
+    }
+    return code;
+  }
+  int operator()(const FleetCommand& command) const { return run(command, socket); }
+  int operator()(const KeyNewCommand& command) const {
+    if (const auto made = make_key_file(command.file); !made) {
+      std::cerr << "warrenctl: " << made.error() << "\n";
+      return kExitFailure;
+    }
+    std::cout << "wrote " << command.file.string()
+              << ": copy it to every member of the fleet, for the daemon's user alone\n";
+    return 0;
   }
   int operator()(const ExitCommand& command) const { return command.code; }
 

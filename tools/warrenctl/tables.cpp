@@ -56,6 +56,24 @@ void add_sensors(std::ostream& out, const control::Status& status) {
   }
 }
 
+void add_store(std::ostream& out, const control::Status& status) {
+  if (!status.has_store()) {
+    label(out, "store") << "none: a restart begins anew\n";
+    return;
+  }
+  const auto& store = status.store();
+  label(out, "store") << std::setprecision(1)
+                      << static_cast<double>(store.used_bytes()) / kBytesPerMegabyte << " MB, "
+                      << store.transactions() << " transactions";
+  if (store.layers_evicted() + store.messages_evicted() > 0) {
+    out << ", " << store.layers_evicted() << " layers and " << store.messages_evicted()
+        << " messages of others dropped to make room";
+  }
+  out << "\n";
+  if (!store.failing().empty())
+    label(out, "") << "THE DISK TAKES NOTHING: " << store.failing() << "\n";
+}
+
 void add_layers(std::ostream& out, const control::Status& status) {
   const auto& memory = status.layer_memory();
   const auto megabytes = [](std::uint64_t bytes) {
@@ -103,6 +121,7 @@ std::string table_of(const control::Status& status) {
                           << ", " << publishing.blocks_held_back()
                           << " blocks hold something back\n";
   add_layers(out, status);
+  add_store(out, status);
   return out.str() + table_of(status.map());
 }
 
@@ -191,11 +210,14 @@ std::string text_of(const control::LayerId& id) {
 
 std::string sentence_of(const control::LoadedLayer& layer) {
   std::ostringstream out;
-  out << text_of(layer.layer()) << " of " << layer.file() << ": " << layer.voxels_occupied()
-      << " occupied and " << layer.voxels_free() << " free voxels of " << layer.resolution_m()
-      << " m, ";
+  out << text_of(layer.layer())
+      << (layer.file().empty() ? std::string(", a copy") : " of " + layer.file()) << ": "
+      << layer.voxels_occupied() << " occupied and " << layer.voxels_free() << " free voxels of "
+      << layer.resolution_m() << " m, ";
   if (layer.retracted()) {
     out << "retracted";
+  } else if (layer.unplaced()) {
+    out << "and where it lies is not known yet";
   } else {
     out << (layer.out_of_reach() ? "too far off for the merge-map" : "in the merge-map");
   }

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/core/layer/fleet_model.hpp"
+#include "tests/support/under_sanitizer.hpp"
 
 using namespace warren;
 using test::Fault;
@@ -32,7 +33,7 @@ std::uint64_t noticed(Fault fault, std::uint64_t seeds) {
 }  // namespace
 
 TEST_CASE("every block of every replica is the origin's at the revision held, whatever happens") {
-  constexpr std::uint64_t kSeeds = 20000;
+  constexpr std::uint64_t kSeeds = test::kUnderSanitizer ? 2000 : 20000;
   std::size_t rested = 0;
   std::array<std::uint64_t, kApplyResults> results{};
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/layer/layer_counts.hpp"
 #include "tests/core/layer/replica_steps.hpp"
 
 using namespace warren;
@@ -259,4 +260,33 @@ TEST_CASE("two replicas that differ walk down their digests to the block") {
     const auto mine = origin.digest_blocks(regions[0]);
     CHECK(differing(mine, copy.digest_blocks(regions[0])) == std::vector<std::uint64_t>{altered});
   }
+}
+
+TEST_CASE("the number of known voxels follows every change") {
+  Replica origin = noisy_layer(40);
+  Replica copy(kLayer, kDefaultResolution);
+  const auto check = [](const Replica& layer) {
+    const MapCounts counts = counts_of(layer);
+    CHECK(layer.known_voxels() == counts.free + counts.occupied);
+  };
+  check(origin);
+  CHECK(origin.known_voxels() > 0);
+  for (const DiffPacket& packet : encode_all(origin, Revision{}, 1200)) apply(copy, packet);
+  check(copy);
+  CHECK(copy.known_voxels() == origin.known_voxels());
+  std::vector<CodedBlock> emptied;
+  origin.for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock&) {
+    emptied.push_back({block, {}});
+    return emptied.size() < 20;
+  });
+  const Revision before = origin.holdings().at(0);
+  publish(origin, emptied);
+  check(origin);
+  for (const DiffPacket& packet : encode_all(origin, before, 1200)) apply(copy, packet);
+  check(copy);
+  copy.rest(origin.holdings().at(0), 100);
+  REQUIRE(copy.forget({0, kOrdinalEnd / 2}));
+  check(copy);
+  REQUIRE(copy.forget({}));
+  CHECK(copy.known_voxels() == 0);
 }

@@ -4,6 +4,7 @@
 
 #include "core/voxel/self_map.hpp"
 #include "tests/support/simulated_scans.hpp"
+#include "tests/support/under_sanitizer.hpp"
 #include "tools/warren-bench/octomap_peer.hpp"
 
 using namespace warren;
@@ -27,7 +28,8 @@ MapAgreement integrate_both(const SelfMapConfig& config, const std::vector<Simul
 }  // namespace
 
 TEST_CASE("the self-map equals OctoMap's voxel by voxel") {
-  const std::vector<SimulatedScan> walk = test::walk_through_room(Room{}, Lidar{}, 6);
+  const std::vector<SimulatedScan> walk =
+      test::walk_through_room(Room{}, Lidar{}, test::kUnderSanitizer ? 2 : 6);
   for (const double resolution_m : {0.05, 0.1, 0.2}) {
     for (const SensorModel& model :
          {SensorModel::octomap_default(), SensorModel::field(), SensorModel::ours()}) {

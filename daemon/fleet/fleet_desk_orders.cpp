@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// What FleetDesk does with the operator's orders.
+#include <algorithm>
+#include <utility>
+
+#include "daemon/control/layer_shift.hpp"
+#include "daemon/fleet/fleet_desk.hpp"
+
+namespace warren {
+namespace {
+
+using replication::ItemNumber;
+
+constexpr const char* kNotStored = "it could not be stored, and is not ordered";
+constexpr const char* kNoBase =
+    "this node is a robot: only a base gives orders to the fleet; map retract, restore and move "
+    "are for this node alone";
+
+}  // namespace
+
+std::set<std::uint32_t> FleetDesk::bases() const {
+  std::set<std::uint32_t> bases;
+  for (const auto& [member, node] : parts_.nodes.nodes()) {
+    if (node.status.role == NodeRole::kBase) bases.insert(member.number);
+  }
+  bases.erase(parts_.self.number);
+  if (parts_.role == NodeRole::kBase) bases.insert(parts_.self.number);
+  return bases;
+}
+
+void FleetDesk::settle() {
+  const std::size_t layers = parts_.map.own_layers().size() + parts_.map.loaded().size();
+  const bool grown = std::exchange(layers_settled_, layers) != layers;
+  if (!orders_.settle(bases()) && !grown) return;
+  std::vector<LayerId> others;
+  parts_.map.loaded().for_each([&](const Replica& layer) { others.push_back(layer.id()); });
+  for (const LayerId& id : others) {
+    parts_.map.loaded().set_retracted_by_fleet(id, orders_.is_retracted(id));
+  }
+  bool moved = false;
+  for (const auto& held : parts_.replication.book().layers()) {
+    const auto correction = orders_.correction_of(held->id);
+    if (!correction) continue;
+    if (held->copy) {
+      moved = held->copy->pose().update_correction(*correction) == PoseResult::kTaken || moved;
+    } else {
+      (void)parts_.map.correct_own(held->id, *correction);
+    }
+  }
+  if (moved) parts_.map.place_others();
+}
+
+FleetDesk::Layers FleetDesk::layers_of(const Order& order) const {
+  if (order.layer) return {*order.layer};
+  Layers layers;
+  for (const auto& held : parts_.replication.book().layers()) {
+    if (held->id.origin == order.node) layers.push_back(held->id);
+  }
+  return layers;
+}
+
+// The correction that brings the layer from where its origin says to where it shall lie.
+tl::expected<Order, std::string> FleetDesk::alignment_of(const FleetOrder& wanted,
+                                                         MemberId node) const {
+  const auto layer = newest_layer(node);
+  if (!layer) return tl::unexpected(layer.error());
+  const LayerPose& pose = (*layer)->pose();
+  const auto T_fleet_layer = pose.origin().pose.checked();
+  if (pose.origin().revision == 0 || !T_fleet_layer) {
+    return tl::unexpected(std::string("where the layer lies is not known here yet"));
+  }
+  const Eigen::Isometry3d correction =
+      shifted(*T_fleet_layer, wanted.shift) * T_fleet_layer->inverse();
+  Order order;
+  order.verb = Order::Verb::kAlign;
+  order.revision = std::max(orders_.next_revision(node.number), pose.correction().revision + 1);
+  order.writer = parts_.self.number;
+  order.node = node.number;
+  order.layer = (*layer)->id();
+  order.correction = Pose::of(correction);
+  LayerPose corrected = pose;
+  if (corrected.update_correction({order.revision, order.writer, order.correction}) !=
+      PoseResult::kTaken) {
+    return tl::unexpected(std::string("there the layer would lie out of reach"));
+  }
+  return order;
+}
+
+tl::expected<std::vector<Order>, std::string> FleetDesk::drafts_of(const FleetOrder& wanted) const {
+  Order order;
+  order.writer = parts_.self.number;
+  order.layer = wanted.layer;
+  if (wanted.layer) {
+    const bool known = parts_.replication.book().find(*wanted.layer) != nullptr ||
+                       parts_.map.loaded().find(*wanted.layer).has_value();
+    if (!known) return tl::unexpected(std::string("no such layer is known here"));
+    order.node = wanted.layer->origin;
+  } else {
+    const auto node = find_node(wanted.node);
+    if (!node) return tl::unexpected(node.error());
+    order.node = node->number;
+  }
+  order.revision = orders_.next_revision(order.node);
+  if (wanted.what == FleetOrder::What::kAlign) {
+    auto aligned = alignment_of(wanted, MemberId{order.node});
+    if (!aligned) return tl::unexpected(aligned.error());
+    return std::vector<Order>{*aligned};
+  }
+  const bool restores = wanted.what == FleetOrder::What::kRestore;
+  order.verb = restores ? Order::Verb::kRestore : Order::Verb::kRetract;
+  if (wanted.what != FleetOrder::What::kClear) return std::vector<Order>{order};
+  // All that it has written so far, but nothing that it begins later.
+  std::vector<Order> orders;
+  for (const LayerId& layer : layers_of(order)) {
+    order.layer = layer;
+    orders.push_back(order);
+  }
+  if (orders.empty()) return tl::unexpected("no layer of " + wanted.node + " is held here");
+  return orders;
+}
+
+void FleetDesk::order(MeshTime now, const FleetOrder& wanted,
+                      std::function<void(tl::expected<Layers, std::string>)> answer) {
+  if (stopped_) return answer(tl::unexpected(std::string(kStopping)));
+  if (parts_.role != NodeRole::kBase) return answer(tl::unexpected(std::string(kNoBase)));
+  const auto drafts = drafts_of(wanted);
+  if (!drafts) return answer(tl::unexpected(drafts.error()));
+  Layers layers;
+  std::vector<replication::Item> items;
+  std::optional<ItemNumber> last;
+  for (const Order& draft : *drafts) {
+    if (draft.revision == 0) {
+      return answer(tl::unexpected(std::string("no further order on this node can be given")));
+    }
+    const Layers of = layers_of(draft);
+    layers.insert(layers.end(), of.begin(), of.end());
+    items.push_back(item_of(draft));
+    last = parts_.replication.append(now, items.back());
+    if (!last) return answer(tl::unexpected(std::string("this node's log is full")));
+  }
+  when_stored(*last, [this, items, layers, answer = std::move(answer)](bool stored) {
+    if (!stored) return answer(tl::unexpected(std::string(kNotStored)));
+    for (const replication::Item& item : items) (void)orders_.note(parts_.self.number, item);
+    parts_.turn_soon();
+    answer(layers);
+  });
+}
+
+}  // namespace warren

@@ -1,0 +1,263 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# A base and robots, the real programs over real UDP. Usage: fleet_end_to_end.sh BIN_DIR SOURCE_DIR CASE
+# shellcheck source=tests/tools/end_to_end_parts.sh
+. "$(dirname "$0")/end_to_end_parts.sh"
+
+declare -A pids=()      # of the daemons, by name
+declare -A namespaces=() # by name; none: this one, over the loopback interface
+link=                   # pid of warren-link
+port_base=$((10000 + $$ % 2500 * 8))
+
+clean_up_fleet() {
+  for name in "${!pids[@]}"; do kill -KILL "${pids[$name]}" 2>/dev/null || true; done
+  [ -z "$link" ] || kill -TERM "$link" 2>/dev/null || true
+  [ -z "$link" ] || wait "$link" 2>/dev/null || true
+  clean_up
+}
+trap clean_up_fleet EXIT
+
+fail() {
+  echo "FAILED: $*" >&2
+  for log in "$work"/*.log; do echo "== $log" >&2; tail -n 20 "$log" >&2; done
+  exit 1
+}
+
+interface_of() { # NAME NUMBER [SEED_NUMBER..]
+  local name=$1
+  shift 2
+  if [ -n "${namespaces[$name]:-}" ]; then
+    printf '    - name: radio0\n'
+    return
+  fi
+  printf '    - name: lo\n      seeds: ['
+  local separator=
+  for seed in "$@"; do
+    printf "%s'127.0.0.1:%s'" "$separator" "$((port_base + seed))"
+    separator=', '
+  done
+  printf ']\n'
+}
+
+start_node() { # NAME NUMBER [SEED_NUMBER..]
+  local name=$1 number=$2 role=robot group=$2
+  # On one interface all hear the group: there each node has one for itself, and seeks by address.
+  [ -z "${namespaces[$name]:-}" ] || group=0
+  [ "$name" = base ] && role=base
+  [ -f "$work/fleet.key" ] || "$bin/warrenctl" key new "$work/fleet.key" >/dev/null
+  {
+    printf 'node: {name: %s, role: %s}\n' "$name" "$role"
+    printf 'sockets:\n  ingest: {path: %s}\n  control: {path: %s}\n' \
+      "$work/$name.ingest" "$work/$name.control"
+    printf 'store: {file: %s}\n' "$work/$name.db"
+    printf 'layer: {tick_s: 0.2, flush_after_s: 1}\n'
+    printf 'mesh:\n  key_file: %s\n  port: %s\n  group_port: %s\n  interfaces:\n' \
+      "$work/fleet.key" "$((port_base + number))" "$((port_base + 4 + group))"
+    interface_of "$@"
+  } >"$work/$name.yaml"
+  "$bin/warrend" --check "$work/$name.yaml" >/dev/null || fail "the config of $name has faults"
+  local in=()
+  [ -z "${namespaces[$name]:-}" ] || in=(ip netns exec "${namespaces[$name]}")
+  "${in[@]}" "$bin/warrend" --config "$work/$name.yaml" 2>>"$work/$name.log" &
+  pids[$name]=$!
+  wait_until "$name opens its socket" [ -S "$work/$name.control" ]
+  wait_until "$name answers" ctl "$name" fleet status --json
+}
+
+stop_node() { # NAME
+  kill -TERM "${pids[$1]}"
+  wait "${pids[$1]}" || fail "$1 ended with $?"
+  unset "pids[$1]"
+}
+
+kill_node() { # NAME
+  kill -KILL "${pids[$1]}"
+  wait "${pids[$1]}" 2>/dev/null || true
+  unset "pids[$1]"
+}
+
+ctl() { # NAME ARG..
+  "$bin/warrenctl" --socket "$work/$1.control" "${@:2}" >"$work/$1.out" 2>"$work/$1.err"
+}
+
+drive() { # NAME SEED SWEEPS [FRAME_EPOCH]
+  "$bin/warren-sim" run --world room --seed "$2" --seconds "$(($3 / 10)).$(($3 % 10))5" --columns 128 \
+    --rate max --frame-epoch "${4:-1}" --socket "$work/$1.ingest" --json >"$work/drive.json" 2>"$work/drive.err" ||
+    fail "$1 does not drive: $(cat "$work/drive.err")"
+  [ "$(field taken <"$work/drive.json")" = "$3" ] || fail "$(cat "$work/drive.json")"
+}
+
+# NAME has all of the layer that OF writes now, with its digest, if any revision of it was ever made.
+has_all() { # NAME OF
+  ctl "$1" fleet status --json || return 1
+  "$python" - "$work/$1.out" "$2" <<'PY'
+import json, sys
+nodes = json.load(open(sys.argv[1]))["nodes"]
+layers = [layer for node in nodes if node["name"] == sys.argv[2] for layer in node["layers"]]
+has_all = [layer for layer in layers if layer.get("up_to_us") and layer["latest"] > 0
+           and layer["lag_revisions"] == 0 and layer.get("digest_equal")]
+sys.exit(0 if has_all else 1)
+PY
+}
+
+# What a node writes is, byte for byte, what another has of it.
+# The writer may publish what it held back between a look at the one and at the other.
+same_layer() { # WRITER OTHER
+  wait_until "$2 has the map of $1 as $1 has it" same_digest "$1" "$2"
+}
+
+same_digest() { # WRITER OTHER
+  ctl "$1" map save "$work/own.layer" || fail "$(cat "$work/$1.err")"
+  ctl "$2" map save "$work/copy.layer" --of "$1" || fail "$(cat "$work/$2.err")"
+  local own copy
+  own=$("$bin/warrenctl" layer digest "$work/own.layer")
+  copy=$("$bin/warrenctl" layer digest "$work/copy.layer")
+  [ "$own" = "$copy" ]
+}
+
+maps_are_shared() { # after all three are up; robot-2 and the base do not hear each other
+  drive robot-1 3 12
+  drive robot-2 4 12
+  for of in robot-1 robot-2; do wait_until "the base has all of $of" has_all base "$of"; done
+  wait_until "robot-1 has all of robot-2" has_all robot-1 robot-2
+  wait_until "robot-2 has all of robot-1" has_all robot-2 robot-1
+  same_layer robot-1 base
+  same_layer robot-2 base
+  ctl base fleet status || fail "$(cat "$work/base.err")"
+  grep -Eq '^robot-2 +robot +by others .*has all of robot-2 up to .*digest equal' "$work/base.out" ||
+    fail "$(cat "$work/base.out")"
+  grep -Eq '^robot-1 +robot +(lo|radio0) .*digest equal' "$work/base.out" ||
+    fail "$(cat "$work/base.out")"
+  ctl base map save "$work/all.ply" --of merge || fail "$(cat "$work/base.err")"
+  grep -aq 'comment source 2' "$work/all.ply" || fail "the merged cloud is not of two robots"
+}
+
+case_a_base_has_what_robots_map_that_it_never_hears() {
+  start_node robot-1 1
+  start_node robot-2 2 1
+  start_node base 0 1
+  maps_are_shared
+  for name in robot-1 robot-2 base; do stop_node "$name"; done
+}
+
+case_a_robot_that_is_killed_comes_back_and_the_fleet_goes_on() {
+  start_node robot-1 1
+  start_node robot-2 2 1
+  start_node base 0 1
+  drive robot-1 3 8
+  wait_until "the base has all of robot-1" has_all base robot-1
+  kill_node robot-1
+  drive robot-2 4 8
+  start_node robot-1 1
+  drive robot-1 3 8 2
+  for of in robot-1 robot-2; do wait_until "the base has all of $of" has_all base "$of"; done
+  wait_until "robot-2 has all of robot-1" has_all robot-2 robot-1
+  same_layer robot-2 base
+  for name in robot-1 robot-2 base; do stop_node "$name"; done
+}
+
+# One layer, of which the base has all: nothing that left the robot was lost by a kill, and no
+# revision was used twice, or the digests would differ.
+case_a_robot_killed_while_it_maps_goes_on_with_its_layer() {
+  start_node robot-1 1
+  start_node base 0 1
+  local round
+  for round in 1 2 3; do
+    "$bin/warren-sim" run --world room --seed "$round" --seconds 20 --columns 128 --rate max \
+      --frame-epoch 1 --socket "$work/robot-1.ingest" >/dev/null 2>&1 &
+    local driver=$!
+    wait_until "robot-1 has published in round $round" has_published robot-1 "$round"
+    kill_node robot-1
+    wait "$driver" || true
+    start_node robot-1 1
+  done
+  drive robot-1 4 8
+  wait_until "the base has all of robot-1" has_all base robot-1
+  same_layer robot-1 base
+  ctl base fleet status --json || fail "$(cat "$work/base.err")"
+  "$python" - "$work/base.out" <<'PY' || fail "$(cat "$work/base.out")"
+import json, sys
+[robot] = [n for n in json.load(open(sys.argv[1]))["nodes"] if n["name"] == "robot-1"]
+sys.exit(0 if len(robot["layers"]) == 1 else 1)
+PY
+  for name in robot-1 base; do stop_node "$name"; done
+}
+
+# Its revision is above that of the round before.
+published=0
+has_published() { # NAME ROUND
+  ctl "$1" status --json || return 1
+  local revision
+  revision=$("$python" -c 'import json, sys
+print(json.load(open(sys.argv[1])).get("publishing", {}).get("revision", 0))' "$work/$1.out")
+  [ "$revision" -gt "$((published + 2))" ] || return 1
+  published=$revision
+}
+
+# What a path or a message watch printed has this in it.
+shows() { # NAME TEXT ARG..
+  ctl "$1" "${@:3}" && grep -q -- "$2" "$work/$1.out"
+}
+
+case_messages_paths_and_orders_cross_the_fleet() { # robot-1 and the base do not hear each other
+  start_node robot-1 1 2
+  start_node robot-2 2
+  start_node base 0 2
+  drive robot-1 3 8
+  drive robot-2 3 8
+  wait_until "the base has all of robot-1" has_all base robot-1
+  wait_until "the base has all of robot-2" has_all base robot-2
+  wait_until "robot-1 knows the base" ctl robot-1 message send --to base --class urgent "found one"
+  wait_until "the base hears robot-1" shows base 'robot-1 (urgent): found one' message watch --seconds 0
+  ctl base message send --name plan "come home" || fail "$(cat "$work/base.err")"
+  for name in robot-1 robot-2; do
+    wait_until "$name hears the base" shows "$name" 'base to all \[plan\]: come home' message watch --seconds 0
+  done
+  ! ctl robot-1 message send --to nobody hello || fail "a message to nobody was taken"
+  grep -q 'no node called nobody' "$work/robot-1.err" || fail "no reason: $(cat "$work/robot-1.err")"
+
+  wait_until "the base has a path of robot-1" shows base ' 0$' fleet trajectory robot-1
+  local before after
+  before=$(head -n 1 "$work/base.out" | cut -d ' ' -f 2)
+  ! ctl robot-2 align robot-1 1 0 0 0 || fail "a robot gave an order"
+  grep -q 'only a base' "$work/robot-2.err" || fail "no reason: $(cat "$work/robot-2.err")"
+  ctl base align robot-1 -0.6 0.4 0.1 4 || fail "$(cat "$work/base.err")"
+  moved() {
+    ctl robot-2 fleet trajectory robot-1 || return 1
+    after=$(head -n 1 "$work/robot-2.out" | cut -d ' ' -f 2)
+    "$python" -c 'import sys; sys.exit(not abs(float(sys.argv[1]) - 0.6 - float(sys.argv[2])) < 0.25)' \
+      "$before" "$after"
+  }
+  wait_until "robot-2 sees robot-1 moved" moved
+  # Both robots saw the same room: where robot-1 belongs can be told from that, and is not far off.
+  ctl base align robot-1 --estimate --against robot-2 || fail "$(cat "$work/base.out" "$work/base.err")"
+  grep -q 'warrenctl align robot-1' "$work/base.out" || fail "$(cat "$work/base.out")"
+  ctl base fleet retract robot-1 || fail "$(cat "$work/base.err")"
+  wait_until "robot-2 leaves robot-1 out" shows robot-2 'retracted everywhere' fleet status
+  ctl base fleet restore robot-1 || fail "$(cat "$work/base.err")"
+  back() { ctl robot-2 fleet status && ! grep -q 'retracted everywhere' "$work/robot-2.out"; }
+  wait_until "robot-2 takes robot-1 in again" back
+  for name in robot-1 robot-2 base; do stop_node "$name"; done
+}
+
+case_a_fleet_shares_maps_over_bad_radios() {
+  [ "$(id -u)" -eq 0 ] || { echo "SKIPPED: network namespaces need root"; exit 0; }
+  [ -c /dev/net/tun ] || { echo "SKIPPED: there is no /dev/net/tun"; exit 0; }
+  command -v ip >/dev/null || { echo "SKIPPED: there is no iproute2"; exit 0; }
+  "$bin/warren-link" --tap --nodes 3 --rate 2e6 --delay-ms 10 --loss 0.2 \
+    --link 0,2,loss=1 --link 2,0,loss=1 >"$work/link.out" 2>"$work/link.log" &
+  link=$!
+  wait_until "the radios are on" grep -q '^ready' "$work/link.out"
+  local node=0 name
+  for name in base robot-1 robot-2; do
+    namespaces[$name]="warren-$link-$node"
+    node=$((node + 1))
+  done
+  start_node robot-1 1
+  start_node robot-2 2
+  start_node base 0
+  maps_are_shared
+  for name in robot-1 robot-2 base; do stop_node "$name"; done
+}
+
+"case_$case"
