@@ -68,6 +68,7 @@ void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
   } else {
     replication_.on_refused(batch);
     self_backlog_.on_refused();
+    poses_stored_.clear();
     committed_ = MeshRunner::now() + kAfterRefusal;
   }
   desk_.on_committed(MeshRunner::now(), stored);

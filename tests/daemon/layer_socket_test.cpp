@@ -8,18 +8,11 @@
 #include "core/exchange/layer_file.hpp"
 #include "core/layer/hash_text.hpp"
 #include "tests/daemon/frames.hpp"
-#include "tests/daemon/running_daemon.hpp"
+#include "tests/daemon/mapped_daemon.hpp"
 #include "tests/daemon/test_client.hpp"
 
 namespace warren {
 namespace {
-
-Config quick_ticks() {
-  Config config;
-  config.layer.tick_s = 0.1;
-  config.layer.flush_after_s = 0.1;
-  return config;
-}
 
 void take_one_scan(const RunningDaemon& daemon) {
   TestClient client = greeted_client(daemon.ingest_socket());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subscriptions and rays on the control socket.
+// Subscriptions on the control socket.
 #include <cmath>
 #include <limits>
 
@@ -8,7 +8,7 @@
 #include "proto/framing.hpp"
 #include "tests/daemon/block_copy.hpp"
 #include "tests/daemon/frames.hpp"
-#include "tests/daemon/running_daemon.hpp"
+#include "tests/daemon/mapped_daemon.hpp"
 #include "tests/daemon/test_client.hpp"
 
 namespace warren {
@@ -16,32 +16,6 @@ namespace warren {
 using namespace test;
 
 namespace {
-
-Config quick_ticks() {
-  Config config;
-  config.layer.tick_s = 0.1;
-  config.layer.flush_after_s = 0.1;
-  return config;
-}
-
-// Of a wall; each from a place of its own.
-void take_scan(const RunningDaemon& daemon, std::uint64_t sequence) {
-  TestClient client = greeted_client(daemon.ingest_socket());
-  auto request = scan_request(sequence, 1024);
-  const double y_m = -0.7 * static_cast<double>(sequence - 1);
-  request.mutable_scan()->mutable_t_map_base()->mutable_translation()->set_y(y_m);
-  REQUIRE(client.write(framed(request.SerializeAsString()) + payload_of(wall_points(1024))));
-  REQUIRE(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
-}
-
-// Asks until the scan's tick and the flush after it have been: bounded by the client's patience.
-void wait_until_published(const RunningDaemon& daemon) {
-  for (int asked = 0; asked < 100'000; ++asked) {
-    const control::Publishing now = daemon.status().publishing();
-    if (now.revision() > 0 && now.blocks_held_back() == 0) return;
-  }
-  FAIL("nothing was published");
-}
 
 control::Request blocks_request(control::MapSource source) {
   control::Request request;
@@ -121,9 +95,7 @@ TEST_CASE("a subscriber's copy holds what cells tell, of the own layer and of th
 }
 
 TEST_CASE("an answer waits for a change, and then holds that change alone") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
+  MappedDaemon daemon;
   TestClient client(daemon.control_socket());
   control::Request request = blocks_request(control::MERGE);
   whole_copy(client, request);
@@ -137,9 +109,7 @@ TEST_CASE("an answer waits for a change, and then holds that change alone") {
 }
 
 TEST_CASE("without a change an answer comes when the wait is over, and has nothing") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
+  MappedDaemon daemon;
   TestClient client(daemon.control_socket());
   for (const double wait_s : {0.0, 0.25}) {
     control::Request request = blocks_request(control::MERGE);
@@ -154,9 +124,7 @@ TEST_CASE("without a change an answer comes when the wait is over, and has nothi
 }
 
 TEST_CASE("clients that go away while they wait leave their places to others") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
+  MappedDaemon daemon;
   control::Request request = blocks_request(control::MERGE);
   {
     TestClient client(daemon.control_socket());
@@ -181,9 +149,7 @@ TEST_CASE("clients that go away while they wait leave their places to others") {
 }
 
 TEST_CASE("a daemon that stops answers those who wait") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
+  MappedDaemon daemon;
   TestClient client(daemon.control_socket());
   control::Request request = blocks_request(control::MERGE);
   whole_copy(client, request);
@@ -199,9 +165,7 @@ TEST_CASE("a daemon that stops answers those who wait") {
 }
 
 TEST_CASE("one who asks and does not read holds up nobody, and is told the newest state at last") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
+  MappedDaemon daemon;
   constexpr int kAsked = 40;
   TestClient slow(daemon.control_socket());
   const std::string request = framed(blocks_request(control::MERGE).SerializeAsString());
@@ -214,9 +178,7 @@ TEST_CASE("one who asks and does not read holds up nobody, and is told the newes
 }
 
 TEST_CASE("questions about blocks that make no sense are refused") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
+  MappedDaemon daemon;
   TestClient client(daemon.control_socket());
   const auto error_of = [&](auto change) {
     control::Request request = blocks_request(control::MERGE);
@@ -258,57 +220,13 @@ TEST_CASE("questions about blocks that make no sense are refused") {
 TEST_CASE("a cursor of an earlier run of the daemon begins anew") {
   control::Request request = blocks_request(control::SELF);
   for (int run = 0; run < 2; ++run) {
-    RunningDaemon daemon(quick_ticks());
-    take_scan(daemon, 1);
-    wait_until_published(daemon);
+    MappedDaemon daemon;
     TestClient client(daemon.control_socket());
     const control::Blocks blocks = client.ask(request).blocks();
     CHECK(blocks.anew());
     request.mutable_blocks()->set_cursor(blocks.cursor());
     CHECK_FALSE(client.ask(request).blocks().anew());
   }
-}
-
-TEST_CASE("rays tell what they meet first, and those that make no sense are refused") {
-  RunningDaemon daemon(quick_ticks());
-  take_scan(daemon, 1);
-  wait_until_published(daemon);
-  TestClient client(daemon.control_socket());
-  control::Request request;
-  auto& rays = *request.mutable_rays();
-  rays.set_max_range_m(10.0);
-  for (const double coordinate : {0.55, 0.0, 0.0}) rays.add_origins_map_m(coordinate);
-  for (const double coordinate : {2.0, 0.0, 0.0, -1.0, 0.0, 0.0})
-    rays.add_directions_map(coordinate);
-  for (const auto source : {control::SELF, control::MERGE}) {
-    rays.set_source(source);
-    const control::Rays ends = client.ask(request).rays();
-    REQUIRE(ends.ends_size() == 2);
-    CHECK(ends.ends(0).state() == "occupied");
-    CHECK(ends.ends(0).range_m() == doctest::Approx(4.45));
-    CHECK(ends.ends(0).low_map_m(0) == doctest::Approx(5.0));
-    CHECK(ends.ends(1).state() == "unknown");
-  }
-  rays.set_through_unknown(true);
-  CHECK(client.ask(request).rays().ends(1).state() == "free");
-  CHECK(client.ask(request).rays().ends(1).low_map_m_size() == 0);
-
-  const auto error = [&] { return client.ask(request).error().text(); };
-  rays.set_max_range_m(1e6);
-  CHECK(error().find("131072 voxels") != std::string::npos);
-  for (const double wrong : {0.0, -1.0, std::nan("")}) {
-    rays.set_max_range_m(wrong);
-    CHECK(error().find("above 0") != std::string::npos);
-  }
-  rays.set_max_range_m(1.0);
-  rays.set_directions_map(3, 0.0);
-  CHECK(error().find("not zero") != std::string::npos);
-  rays.set_directions_map(3, std::nan(""));
-  CHECK(error().find("not zero") != std::string::npos);
-  rays.add_directions_map(1.0);
-  CHECK(error().find("3 numbers a ray") != std::string::npos);
-  rays.mutable_directions_map()->Resize(3 * 1025, 1.0);
-  CHECK(error().find("1024 rays") != std::string::npos);
 }
 
 }  // namespace warren
