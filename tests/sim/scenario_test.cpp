@@ -13,10 +13,10 @@ namespace {
 // A thousand in all, in parts that ctest runs side by side. WARREN_SIM_SEED=N runs that one alone.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t kSeedsPerPart = 25;  // the same code, at a tenth of the speed
-constexpr std::uint64_t kLateMax = 6;
+constexpr std::uint64_t kLateMax = 4;
 #else
 constexpr std::uint64_t kSeedsPerPart = 250;
-constexpr std::uint64_t kLateMax = 50;
+constexpr std::uint64_t kLateMax = 20;
 #endif
 
 // How much later than the target it was done, in seconds.
