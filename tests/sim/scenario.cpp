@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 
 #include "tools/world/random.hpp"
@@ -36,6 +37,7 @@ class Scenario {
   void plan_troubles();
   void plan_restart(MeshTime when);
   void heal();
+  double queued_bytes();
   Duration theoretical();
   std::uint64_t open_bytes(std::size_t node) { return simulation_.node(node).source->open_bytes(); }
 
@@ -202,6 +204,20 @@ void Scenario::plan_troubles() {
   }
 }
 
+// What stands in queues goes first, whether it is of use still or not.
+double Scenario::queued_bytes() {
+  double most = 0.0;
+  for (std::size_t k = 0; k < simulation_.networks(); ++k) {
+    double all = 0.0;
+    for (StationIndex i = 0; i < simulation_.nodes(); ++i) {
+      const auto bytes = static_cast<double>(simulation_.network(k).queued_bytes(i));
+      all = shared_ ? all + bytes : std::max(all, bytes);
+    }
+    most = std::max(most, all);
+  }
+  return most;
+}
+
 // Of what is left, if every packet were full and none were sent in vain.
 Duration Scenario::theoretical() {
   const std::size_t nodes = simulation_.nodes();
@@ -213,10 +229,20 @@ Duration Scenario::theoretical() {
   for (std::size_t i = 0; i < nodes; ++i) by_sender[i] += static_cast<double>(open_bytes(i));
   double bytes = 0.0;
   for (const double sender : by_sender) bytes = shared_ ? bytes + sender : std::max(bytes, sender);
-  // Of a packet of 1428 bytes, or 300 on the slowest links, so much is payload.
-  const double payload = small_ || rate_bit_s_ < 100e3 ? 0.75 : 0.92;
-  const double s = bytes * 8.0 / (rate_bit_s_ * (1.0 - loss_) * payload);
-  return in_seconds(s) + 10 * delay_;
+  // Of a packet of 1428 bytes, or 300 on the slowest links, so much is payload. One of 90 bytes
+  // acknowledges two that arrived; on a shared medium that takes the same air.
+  const bool short_packets = small_ || rate_bit_s_ < 100e3;
+  const double payload = short_packets ? 0.75 : 0.92;
+  const double acknowledged = !shared_ ? 0.0 : short_packets ? 0.08 : 0.035;
+  // Beacons of each node take 900 bit/s of the air that it sends in.
+  const double rate = rate_bit_s_ - 900.0 * static_cast<double>(shared_ ? nodes : 1);
+  const double sent = bytes / payload * (1.0 / (1.0 - loss_) + acknowledged) + queued_bytes();
+  // What was known of the rate is of the time of troubles. Nobody finds it faster than by doubling
+  // in each round trip what the first eight packets of 400 bytes were.
+  const double trip_s = 2.0 * duration<double>(delay_).count();
+  const double doublings =
+      std::log2(std::max(std::min(bytes, rate_bit_s_ / 8.0 * trip_s) / 3200.0, 1.0));
+  return in_seconds(sent * 8.0 / rate + doublings * trip_s) + 10 * delay_;
 }
 
 void Scenario::heal() {

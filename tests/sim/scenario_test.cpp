@@ -14,7 +14,7 @@ namespace {
 
 // A thousand in all, in parts that ctest runs side by side. WARREN_SIM_SEED=N runs that one alone.
 constexpr std::uint64_t kSeedsPerPart = test::kUnderSanitizer ? 25 : 250;
-constexpr std::uint64_t kLateMax = test::kUnderSanitizer ? 6 : 50;
+constexpr std::uint64_t kLateMax = test::kUnderSanitizer ? 4 : 20;
 
 // How much later than the target it was done, in seconds.
 double run(std::uint64_t seed) {

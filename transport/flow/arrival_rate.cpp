@@ -62,8 +62,8 @@ std::optional<ArrivalRate::Measure> ArrivalRate::since(const Mark& from) const {
   measure.pairs = pairs;
   measure.seconds = busy * 1e-6;
   measure.stretch = std::max((busy + queued_us) / busy, kStretchMin);
-  const double busy_bytes = total_.sent.busy_bytes - from.sent.busy_bytes;
-  measure.rate = busy_bytes * 1e6 / (busy_own * measure.stretch);
+  measure.bytes = total_.sent.busy_bytes - from.sent.busy_bytes;
+  measure.rate = measure.bytes * 1e6 / (busy_own * measure.stretch);
   return measure;
 }
 

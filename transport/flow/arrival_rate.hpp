@@ -24,6 +24,7 @@ class ArrivalRate {
     double busy = 0.0;          // share of the time that the sender had no rest
     // Of the pairs between which it had none:
     double pairs = 0.0;
+    double bytes = 0.0;    // IP bytes
     double seconds = 0.0;  // from sending to sending, in sum
     double rate = 0.0;     // IP bytes/s: the link's, or else the sender's pace
     double stretch = 1.0;  // arrival spacing / sending spacing: above 1 the link is too slow

@@ -17,6 +17,7 @@ constexpr double kRateMin = 1'000.0;
 constexpr double kRateMax = 1e9;
 constexpr std::size_t kFirstPackets = 8;  // in flight until something is known
 constexpr std::size_t kFirstPacketBytes = 400;
+constexpr double kFirstBytes = 800.0;     // less, in small packets, says nothing of the link
 constexpr double kStartGrowth = 4.0;      // in flight, per byte acknowledged while starting
 constexpr double kPacketOverhead = 80.0;  // IP bytes around what a packet carries
 constexpr double kAirtimeWorth = 0.66;    // seconds of airtime that weigh as much as all bytes
@@ -40,6 +41,10 @@ constexpr double kCertainty = 2.0;  // a probe's effect over the jitter
 constexpr double kCertain = 0.03;   // of a rate: taken as it is
 constexpr double kFallMax = 0.05;   // for one probe that failed
 constexpr int kPlateauRounds = 6;
+constexpr Duration kPlateauMax = seconds{1};
+constexpr double kGainQueued = 1.12;
+constexpr Duration kStillMin = seconds{2};
+constexpr int kStillRtts = 6;
 constexpr double kRoundPairs = 4.0;
 constexpr Duration kRoundMax = seconds{1};
 constexpr double kGiveUpPackets = 20.0;  // arrived without a pair
@@ -86,24 +91,18 @@ void RateController::fall_fast(MeshTime now, std::uint64_t next) {
   const auto seen = arrivals_.since(now - milliseconds{30} - 10 * queue_.jitter(), 4.0);
   if (!seen) return;
   const double seen_rate = seen->busy > kBusy ? seen->arrival_rate : seen->rate;
-  if (searching)
-    set_rate(std::min(seen_rate, rate_ * gain_));
-  else if (seen_rate < 0.93 * rate_)
-    set_rate(seen_rate);
   if (searching) {
-    gain_ = 1.0;
-    starting_ = false;
+    set_rate(std::min(seen_rate, rate_ * gain_));
+    stop_search();
     begin_round(next);
+  } else if (seen_rate < 0.93 * rate_) {
+    set_rate(seen_rate);
   }
 }
 
 // While a queue stands, what arrives is what the link carries.
 void RateController::follow_arrivals(MeshTime now) {
-  if (starting_ || gain_ > 1.0) {
-    queued_since_ = now;
-    return;
-  }
-  if (!queue_shows()) {
+  if (starting_ || gain_ > 1.0 || !queue_shows()) {
     queued_since_ = now;
     return;
   }
@@ -121,7 +120,7 @@ void RateController::follow_arrivals(MeshTime now) {
 // else the link is faster yet.
 void RateController::judge_first_flight(const AckReport& report, std::uint64_t next) {
   const auto seen = arrivals_.since(*round_.from);
-  if (!seen || seen->pairs < 2.0) {
+  if (!seen || seen->pairs < 2.0 || seen->bytes < kFirstBytes) {
     // Too few of it arrived to tell.
     if (report.end < round_.first + kFirstPackets + 1) return;
     set_rate(kCautiousRate);
@@ -141,13 +140,15 @@ void RateController::begin_round(std::uint64_t next) {
 
 void RateController::watch_round(MeshTime now, const AckReport& report, std::uint64_t next) {
   if (queue_shows()) round_.queued = true;
+  if (queue_.standing() + queue_.jitter() > 3 * target() / 4) queue_grew_ = now;
   if (!round_.from) {
     if (report.end > round_.first) round_.from = arrivals_.mark();
     return;
   }
   const double excess = gain_ > 1.0 ? gain_ - 1.0 : kGainFirst - 1.0;
   const Duration certain = from_s(kCertainty * s(queue_.jitter()) / excess);
-  const Duration span = std::max({round_trip() / 4, certain, Duration{milliseconds{10}}});
+  const Duration span =
+      std::max({round_trip() / 4, std::min(certain, kRoundMax), Duration{milliseconds{10}}});
   if (now - round_.from->time < span) return;
   const ArrivalRate::Mark& here = arrivals_.mark();
   const double busy = here.busy_acked_bytes - round_.from->busy_acked_bytes;
@@ -158,8 +159,20 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
   }
   const auto seen = arrivals_.since(*round_.from);
   if (!seen || seen->pairs < kRoundPairs) return give_up_round(now, next);
-  end_round(*seen);
+  end_round(now, *seen);
   begin_round(next);
+}
+
+void RateController::stop_search() {
+  gain_ = 1.0;
+  starting_ = false;
+  through_queue_ = false;
+}
+
+void RateController::wait_at_plateau(MeshTime now) {
+  stop_search();
+  patience_ = kPlateauRounds;
+  plateau_since_ = now;
 }
 
 // At twice the link's rate a short buffer drops every second packet: none is left that arrived
@@ -167,23 +180,28 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
 void RateController::give_up_round(MeshTime now, std::uint64_t next) {
   const double seconds = s(now - round_.from->time);
   const double delivered = arrivals_.mark().acked_bytes - round_.from->acked_bytes;
-  const bool enough = delivered > kGiveUpPackets * static_cast<double>(packet_bytes());
-  if (!enough || seconds < s(round_trip())) return;
+  const double enough = kGiveUpPackets * static_cast<double>(packet_bytes());
+  if (delivered <= enough || seconds < s(round_trip())) return;
   set_rate(std::clamp(1.1 * delivered / seconds, 0.7 * rate_, rate_));
-  gain_ = 1.0;
-  starting_ = false;
-  patience_ = kPlateauRounds;
+  wait_at_plateau(now);
   begin_round(next);
 }
 
-void RateController::end_round(const ArrivalRate::Measure& seen) {
-  if (round_.queued && !starting_) {
+void RateController::end_round(MeshTime now, const ArrivalRate::Measure& seen) {
+  if (round_.queued && !starting_ && !through_queue_) {
     gain_ = 1.0;
     patience_ = 0;
+    // A queue that does not grow towards its target, though the pace is above the rate, may be
+    // none: the path became longer.
+    if (now - queue_grew_ < std::max(kStillMin, kStillRtts * round_trip())) return;
+    queue_grew_ = now;
+    through_queue_ = true;
+    gain_ = kGainQueued;
     return;
   }
   if (patience_ > 0) {
-    if (--patience_ == 0) gain_ = kGainFirst;
+    patience_ = now - plateau_since_ > kPlateauMax ? 0 : patience_ - 1;
+    if (patience_ == 0) gain_ = kGainFirst;
     return;
   }
   const double passed = 1.0 / seen.stretch;  // of the pace
@@ -197,12 +215,11 @@ void RateController::end_round(const ArrivalRate::Measure& seen) {
     const bool all = passed >= 0.5 * (1.0 + full);
     const double next = all ? 1.0 + kGainGrowth * (gain_ - 1.0) : kGainFirst;
     gain_ = std::clamp(next, kGainFirst, kGainMax);
+    through_queue_ = through_queue_ && all;
   } else {
     const double fall = kFallMax * std::clamp(kCertain / doubt, 0.3, 1.0);
     set_rate(std::clamp(seen.rate, rate_ * (1.0 - fall), rate_ * gain_));
-    gain_ = 1.0;
-    starting_ = false;
-    patience_ = kPlateauRounds;
+    wait_at_plateau(now);
   }
 }
 

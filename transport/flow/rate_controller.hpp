@@ -53,7 +53,9 @@ class RateController {
   void judge_first_flight(const AckReport& report, std::uint64_t next);
   void begin_round(std::uint64_t next);
   void give_up_round(MeshTime now, std::uint64_t next);
-  void end_round(const ArrivalRate::Measure& seen);
+  void end_round(MeshTime now, const ArrivalRate::Measure& seen);
+  void stop_search();
+  void wait_at_plateau(MeshTime now);
   void watch_round(MeshTime now, const AckReport& report, std::uint64_t next);
   void follow_arrivals(MeshTime now);
   void fall_fast(MeshTime now, std::uint64_t next);
@@ -74,8 +76,11 @@ class RateController {
   bool starting_ = true;
   double gain_;  // above 1: looks for more
   double loss_ = 0.0;
-  double start_bytes_ = 0.0;  // acknowledged while starting
-  int patience_ = 0;          // rounds until it looks for more again
+  double start_bytes_ = 0.0;    // acknowledged while starting
+  bool through_queue_ = false;  // looks for more though a queue shows
+  MeshTime queue_grew_{};       // it was near its target, or this was tried
+  int patience_ = 0;            // rounds until it looks for more again
+  MeshTime plateau_since_{};
   MeshTime queued_since_{};
   MeshTime last_followed_{};
   MeshTime paused_until_{};

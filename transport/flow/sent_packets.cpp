@@ -16,8 +16,10 @@ constexpr std::uint64_t kPacketThreshold = 3;  // RFC 9002, 6.1.1
 constexpr Duration kReorderingMax = milliseconds{300};
 constexpr Duration kSilenceMin = milliseconds{80};  // delayed and lost acknowledgements
 constexpr Duration kSilenceMax = seconds{2};
-constexpr Duration kAlone = milliseconds{100};     // nothing was sent for so long
-constexpr Duration kFirstRtt = milliseconds{700};  // before one was measured
+constexpr Duration kAlone = milliseconds{100};  // nothing was sent for so long
+constexpr Duration kTailTripMax = milliseconds{1500};
+constexpr Duration kTailSilenceMin = milliseconds{200};  // one alone is acknowledged late
+constexpr Duration kFirstRtt = milliseconds{700};        // before one was measured
 constexpr Duration kDecayPeriod = seconds{1};
 constexpr Duration kRememberLost = seconds{4};        // to notice that it was only late
 constexpr Duration kHeldTooLong = milliseconds{500};  // such a delay is no good for a round trip
@@ -42,6 +44,7 @@ void SentPackets::on_sent(std::uint64_t number, Packet packet) {
   if (packet.wants_ack) {
     bytes_in_flight_ += packet.ip_bytes;
     ++packets_in_flight_;
+    last_asked_ = packet.sent;
   }
   packets_.push_back({.packet = std::move(packet)});
 }
@@ -95,10 +98,12 @@ void SentPackets::acknowledge(MeshTime now, std::uint64_t number, Settled& settl
   if (record.fate == Fate::kLost) {
     // Only late: be more patient with whichever rule was wrong.
     const Duration late = now - record.packet.sent - smoothed_rtt_.value_or(Duration{0});
-    if (number < *largest_acked_) {
+    if (record.lost_by == LossRule::kOvertaken) {
       reordering_ = std::clamp(late, reordering_, kReorderingMax);
+    } else if (record.lost_by == LossRule::kSilence || number == *largest_acked_) {
+      Duration& silence = record.lost_by == LossRule::kTail ? tail_silence_ : ack_silence_;
+      silence = std::clamp(late * 5 / 4, silence, kSilenceMax);
     }
-    ack_silence_ = std::clamp(late * 5 / 4, ack_silence_, kSilenceMax);
   } else if (record.packet.wants_ack) {
     bytes_in_flight_ -= record.packet.ip_bytes;
     --packets_in_flight_;
@@ -148,32 +153,43 @@ void SentPackets::lose(Record& record, Settled& settled) {
 
 void SentPackets::lose_overtaken(Settled& settled) {
   if (!largest_acked_ || *largest_acked_ < first_) return;
-  const MeshTime latest = find(*largest_acked_)->packet.sent;
+  const Duration by_time = std::max(reordering_, trip());
   for (; undecided_ < *largest_acked_; ++undecided_) {
     Record* record = find(undecided_);
     if (record == nullptr || record->fate != Fate::kInFlight) continue;
-    const bool overtaken = *largest_acked_ - undecided_ >= kPacketThreshold &&
-                           latest - record->packet.sent >= reordering_;
-    if (!overtaken) return;
+    const Duration ahead = find(*largest_acked_)->packet.sent - record->packet.sent;
+    const bool overtaken = *largest_acked_ - undecided_ >= kPacketThreshold && ahead >= reordering_;
+    if (!overtaken && ahead < by_time) return;
+    record->lost_by = LossRule::kOvertaken;
     lose(*record, settled);
   }
+}
+
+Duration SentPackets::trip() const {
+  if (!smoothed_rtt_) return kFirstRtt;
+  return std::min(*smoothed_rtt_ + 4 * rtt_variation_, Duration{kTripMax});
 }
 
 // When a packet is held lost though nothing sent later arrived. While more is being sent there is
 // no hurry: either the acknowledgements are lost, or one will soon say what arrived.
 MeshTime SentPackets::loss_time(const Packet& packet) const {
   if (!smoothed_rtt_) return packet.sent + kFirstRtt;
-  const Duration trip = std::min(*smoothed_rtt_ + 4 * rtt_variation_, Duration{kTripMax});
   const MeshTime alone = packets_.back().packet.sent + kAlone;
-  return std::min(std::max(packet.sent + trip + std::max(ack_silence_, kSilenceMin), alone),
-                  packet.sent + trip + kSilenceMax);
+  return std::min(std::max(packet.sent + trip() + std::max(ack_silence_, kSilenceMin), alone),
+                  packet.sent + trip() + kSilenceMax);
+}
+
+// When the oldest packet is held lost because nothing more was sent that could tell. If that is
+// wrong, it cost one packet on a link that had nothing to do.
+MeshTime SentPackets::tail_time() const {
+  return last_asked_ + std::min(trip(), kTailTripMax) + std::max(tail_silence_, kTailSilenceMin);
 }
 
 MeshTime SentPackets::loss_time() const {
   for (std::uint64_t number = std::max(undecided_, first_); number < end(); ++number) {
     const Record& record = packets_[number - first_];
     if (record.fate == Fate::kInFlight && record.packet.wants_ack) {
-      return std::min(forgotten_since_, loss_time(record.packet));
+      return std::min({forgotten_since_, loss_time(record.packet), tail_time()});
     }
   }
   return forgotten_since_;
@@ -183,10 +199,17 @@ SentPackets::Settled SentPackets::on_time(MeshTime now) {
   Settled settled;
   move_all(forgotten_, settled.lost);
   forgotten_since_ = kNever;
+  bool tail = tail_time() <= now;
   for (; undecided_ < end(); ++undecided_) {
     Record* record = find(undecided_);
     if (record == nullptr || record->fate != Fate::kInFlight) continue;
-    if (loss_time(record->packet) > now) break;
+    const bool silence = loss_time(record->packet) <= now;
+    if (!silence && !tail) break;
+    record->lost_by = silence ? LossRule::kSilence : LossRule::kTail;
+    if (record->packet.wants_ack) {
+      tail = false;
+      last_asked_ = now;
+    }
     lose(*record, settled);
   }
   forget_settled(now);
@@ -207,7 +230,7 @@ std::vector<Ticket> SentPackets::abandon() {
 
 void SentPackets::forget_path() {
   smoothed_rtt_.reset();
-  reordering_ = ack_silence_ = Duration{0};
+  reordering_ = ack_silence_ = tail_silence_ = Duration{0};
   loss_ = 0.0;
 }
 
@@ -236,6 +259,7 @@ void SentPackets::forget_settled(MeshTime now) {
   if (now - last_decay_ > kDecayPeriod) {
     reordering_ = reordering_ * 7 / 8;
     ack_silence_ = ack_silence_ * 15 / 16;
+    tail_silence_ = tail_silence_ * 7 / 8;
     last_decay_ = now;
   }
   // One acknowledged record stays, as the first of a pair.

@@ -47,8 +47,9 @@ struct AckReport {
 
 // What was sent to one peer and what became of it. Numbers rise by one with each packet. Loss is
 // found by later packets that arrived (RFC 9002, 6.1, with a reordering allowance that adapts), and
-// at the tail by time, without back-off. Bounded: at most kPacketsMax records; one more makes the
-// oldest forgotten, as lost if it is in flight.
+// at the tail by time, without back-off: while nothing more is sent, one packet in a round trip,
+// and what becomes of it tells of the others (as RFC 8985, 7). Bounded: at most kPacketsMax
+// records; one more makes the oldest forgotten, as lost if it is in flight.
 class SentPackets {
  public:
   static constexpr std::size_t kPacketsMax = 16384;
@@ -94,9 +95,11 @@ class SentPackets {
 
  private:
   enum class Fate : std::uint8_t { kInFlight, kAcked, kLost };
+  enum class LossRule : std::uint8_t { kOvertaken, kSilence, kTail };
   struct Record {
     Packet packet;
     Fate fate = Fate::kInFlight;
+    LossRule lost_by = LossRule::kSilence;
     bool repeated = false;
   };
 
@@ -111,7 +114,9 @@ class SentPackets {
   void measure_rtt(Duration rtt);
   void measure_loss(bool lost);
   void forget_settled(MeshTime now);
+  Duration trip() const;
   MeshTime loss_time(const Packet& packet) const;
+  MeshTime tail_time() const;
 
   std::deque<Record> packets_;  // numbers first_ to end() - 1
   std::uint64_t first_ = 0;
@@ -127,9 +132,11 @@ class SentPackets {
 
   std::optional<Duration> smoothed_rtt_;
   Duration rtt_variation_{};
-  Duration reordering_{};   // how much later than its successors a packet may come
-  Duration ack_silence_{};  // how long acknowledgements may stay away while packets are in flight
+  Duration reordering_{};    // how much later than its successors a packet may come
+  Duration ack_silence_{};   // how long acknowledgements may stay away while packets are in flight
+  Duration tail_silence_{};  // the same while nothing more is sent
   MeshTime last_decay_{};
+  MeshTime last_asked_{};  // a packet that wants an acknowledgement went, or was held lost as tail
   double loss_ = 0.0;
 };
 

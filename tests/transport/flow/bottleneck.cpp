@@ -51,7 +51,9 @@ void Bottleneck::send(MeshTime now, const BottleneckPacket& packet) {
   departures_.push_back(free_at_);
   const Duration jitter{std::llround(uniform() * static_cast<double>(config_.jitter.count()))};
   if (lost_on_air(free_at_)) return;
-  air_.push({free_at_ + config_.delay + jitter, order_++, packet});
+  const bool longer = free_at_.time_since_epoch() >= config_.longer.first;
+  const Duration delay = config_.delay + (longer ? config_.longer.second : Duration{0});
+  air_.push({free_at_ + delay + jitter, order_++, packet});
 }
 
 BottleneckPacket Bottleneck::take_arrival() {

@@ -22,7 +22,8 @@ struct BottleneckConfig {
   std::size_t buffer_packets = 1'000'000;  // waiting, not counting the one being sent
   Duration buffer_delay = std::chrono::milliseconds{1000};
   Duration delay = std::chrono::milliseconds{25};
-  Duration jitter{};  // uniform from zero; packets may overtake
+  std::pair<Duration, Duration> longer{};  // from then on, by so much
+  Duration jitter{};                       // uniform from zero; packets may overtake
   double loss = 0.0;
   double burst_packets = 0.0;  // mean length of a burst (Gilbert-Elliott); 0: independent losses
   std::pair<Duration, Duration> blackout{};  // from, to

@@ -52,6 +52,18 @@ TEST_CASE("the link falls from 1 to 0.1 Mbit/s and rises again: followed within 
   }
 }
 
+TEST_CASE("a path that becomes longer is not taken for a queue when the link becomes faster") {
+  for (const Duration rtt : {milliseconds{100}, milliseconds{270}}) {
+    TransferConfig config = transfer_config({.rtt = rtt}, 1);
+    config.flows = {{}};
+    config.there.rate_bit_s = {{Duration{0}, 5e5}, {seconds{10}, 1e6}};
+    config.there.longer = {seconds{10}, milliseconds{30}};
+    Transfer transfer(config);
+    CAPTURE(rtt.count());
+    CHECK(app_rate(transfer, seconds{15}, milliseconds{17'500}) >= 0.8e6);
+  }
+}
+
 TEST_CASE("after a blackout the old rate is taken up at once") {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     TransferConfig config = transfer_config({.loss = 0.05}, seed);

@@ -75,6 +75,27 @@ TEST_CASE("the last packet is lost by time, without any back-off") {
   }
 }
 
+TEST_CASE(
+    "while nothing more is sent one packet in a round trip is held lost, whatever was learned") {
+  SentPackets sent;
+  send(sent, 0, at(0));
+  sent.on_ack(at(100), ack({{0, 1}}));
+  // An acknowledgement that stayed away for long made it patient.
+  send(sent, 1, at(1000));
+  CHECK(sent.on_time(at(1600)).lost.size() == 1);
+  AckFrame late = ack({{0, 2}});
+  late.delay = milliseconds{1400};
+  sent.on_ack(at(2500), late);
+  for (std::uint64_t i = 2; i < 5; ++i) send(sent, i, at(3000));
+  CHECK(sent.loss_time() <= at(3600));
+  CHECK(numbers(sent.on_time(at(3600)).lost) == std::vector<std::uint64_t>{2});
+  CHECK(sent.on_time(at(3700)).lost.empty());
+  // What is sent instead arrives, and tells of the others.
+  send(sent, 5, at(3700));
+  CHECK(numbers(sent.on_ack(at(3800), ack({{5, 6}, {0, 2}})).lost) ==
+        std::vector<std::uint64_t>{3, 4});
+}
+
 TEST_CASE("an hour of silence changes nothing") {
   SentPackets sent;
   send(sent, 0, at(0));
