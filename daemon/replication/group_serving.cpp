@@ -7,11 +7,6 @@
 #include "daemon/replication/encode_within.hpp"
 
 namespace warren::replication {
-namespace {
-
-constexpr std::size_t kDiffOverhead = 3;  // kind and slot
-
-}  // namespace
 
 // Those whose next run begins at the lowest key, and who hold about as much as the most advanced.
 std::optional<GroupServing::Group> GroupServing::group_of(InterfaceIndex interface,

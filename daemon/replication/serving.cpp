@@ -7,8 +7,6 @@
 namespace warren::replication {
 namespace {
 
-constexpr std::size_t kDiffOverhead = 3;  // kind and slot
-
 // The slots in the order of their turn: after the last one served, around; own layers first if so
 // wanted.
 std::vector<Slot> turns(const Peer& peer, const LayerBook& book, std::optional<Slot> last,
