@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -9,6 +10,9 @@
 #include "daemon/config/config.hpp"
 
 namespace warren {
+
+// After a failed accept (say, no descriptors left), so that the server does not spin.
+inline constexpr std::chrono::milliseconds kAcceptPause{100};
 
 // A listening unix stream socket and its file. A file that a dead process left behind is replaced,
 // one behind which somebody listens is not. The file goes with the object, if it is still ours.

@@ -19,7 +19,7 @@ constexpr mode_t kFileMode = 0666;  // as far as the umask allows
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-tl::unexpected<std::string> failure(const fs::path& file, const std::string& why) {
+tl::unexpected<std::string> write_failure(const fs::path& file, const std::string& why) {
   return tl::make_unexpected("cannot write " + file.string() + ": " + why);
 }
 
@@ -79,21 +79,21 @@ fs::path directory_of(const fs::path& file) {
 tl::expected<std::uint64_t, std::string> write_atomically(
     const fs::path& file, const std::function<WriteResult(const fs::path& temporary)>& write) {
   TemporaryFile temporary(file);
-  if (temporary.error() != 0) return failure(file, error_text(temporary.error()));
+  if (temporary.error() != 0) return write_failure(file, error_text(temporary.error()));
   try {
     const WriteResult written = write(temporary.path());
-    if (!written) return failure(file, written.error());
+    if (!written) return write_failure(file, written.error());
   } catch (const std::exception& thrown) {
-    return failure(file, thrown.what());
+    return write_failure(file, thrown.what());
   }
   if (const int error = flush_to_disk(temporary.path(), O_RDONLY); error != 0) {
-    return failure(file, error_text(error));
+    return write_failure(file, error_text(error));
   }
   std::error_code error;
   const std::uint64_t bytes = fs::file_size(temporary.path(), error);
-  if (error) return failure(file, error.message());
+  if (error) return write_failure(file, error.message());
   if (const int failed = temporary.rename_to(file); failed != 0) {
-    return failure(file, error_text(failed));
+    return write_failure(file, error_text(failed));
   }
   // The name must survive a power cut as well; where directories cannot be flushed it does not.
   flush_to_disk(directory_of(file), O_RDONLY | O_DIRECTORY);

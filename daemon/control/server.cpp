@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/control/server.hpp"
 
+#include "daemon/socket_file.hpp"
+
 namespace warren {
-namespace {
-
-constexpr std::chrono::milliseconds kAcceptPause{100};
-
-}  // namespace
 
 ControlServer::ControlServer(asio::io_context& io, int listening, ControlHandler handler)
     : acceptor_(io, asio::local::stream_protocol(), listening),

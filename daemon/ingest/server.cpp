@@ -4,12 +4,10 @@
 #include <asio/post.hpp>
 
 #include "daemon/log.hpp"
+#include "daemon/socket_file.hpp"
 
 namespace warren {
 namespace {
-
-// After a failed accept (say, no descriptors left), so that it does not spin.
-constexpr std::chrono::milliseconds kAcceptPause{100};
 
 IngestLimits limits_of(const Config& config) {
   IngestLimits limits{config.ingest.max_points, {}};

@@ -7,7 +7,6 @@
 namespace warren::replication {
 namespace {
 
-constexpr RegionOrdinal kRegionEnd = kOrdinalEnd >> 9;
 // More regions than these are forgotten in one: holdings have few intervals.
 constexpr std::size_t kForgottenMax = 8;
 

@@ -4,8 +4,6 @@
 namespace warren::replication {
 namespace {
 
-constexpr RegionOrdinal kRegionEnd = kOrdinalEnd >> 9;
-
 std::optional<Slot> read_slot(mesh::PacketReader& reader) {
   const auto slot = reader.number(kSlotsMax - 1);
   return slot ? std::optional(static_cast<Slot>(*slot)) : std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +20,8 @@ using Slot = std::uint16_t;
 inline constexpr Slot kSlotsMax = 256;
 inline constexpr std::size_t kDiffOverhead = 3;  // of a DiffMessage: kind and slot
 
+inline constexpr RegionOrdinal kRegionEnd = region_of(kOrdinalEnd);  // behind the last
+
 // What one map packet of the mesh carries; its first byte is kind and version.
 
 // 0x21: slot (LEB128) of the sender, then a diff packet.
@@ -27,6 +30,7 @@ struct DiffMessage {
   Slot slot = 0;
   std::span<const std::uint8_t> packet;
 };
+inline constexpr std::size_t kDiffOverhead = 3;  // kind and slot
 
 // What a member wants of one layer from the receiver, until it says otherwise.
 struct Wish {

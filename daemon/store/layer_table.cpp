@@ -2,14 +2,11 @@
 #include "daemon/store/layer_table.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "daemon/store/block_bytes.hpp"
 
 namespace warren {
 namespace {
-
-constexpr std::int64_t kAllRows = std::numeric_limits<std::int64_t>::max();
 
 // Where less is held than before, and it was not forgotten.
 bool lowers(const Holdings& before, const LayerWrite& write) {

@@ -2,15 +2,9 @@
 #include "daemon/store/log_table.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 namespace warren {
-namespace {
-
-constexpr std::int64_t kAllRows = std::numeric_limits<std::int64_t>::max();
-
-}  // namespace
 
 void LogTable::load() {
   entries_.clear();

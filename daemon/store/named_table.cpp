@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/store/named_table.hpp"
 
-#include <limits>
-
 #include "core/exchange/byte_fields.hpp"
 
 namespace warren {
-namespace {
-
-constexpr std::int64_t kAllRows = std::numeric_limits<std::int64_t>::max();
-
-}  // namespace
 
 void NamedTable::load() {
   entries_.clear();

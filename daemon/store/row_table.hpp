@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,9 @@
 #include "daemon/store/sealed_bytes.hpp"
 
 namespace warren {
+
+// The end behind every key.
+inline constexpr std::int64_t kAllRows = std::numeric_limits<std::int64_t>::max();
 
 // Rows of bytes by a number, each sealed. All tables of a store are such.
 class RowTable {

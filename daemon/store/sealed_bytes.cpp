@@ -26,7 +26,7 @@ constexpr Tables made_tables() {
   return tables;
 }
 
-constexpr Tables kTables = made_tables();
+constexpr Tables kCrcTables = made_tables();
 
 std::uint32_t crc_of(std::int64_t key, std::span<const std::uint8_t> bytes) {
   std::array<std::uint8_t, 8> key_bytes{};
@@ -43,11 +43,11 @@ std::uint32_t crc32c(std::span<const std::uint8_t> bytes, std::uint32_t before) 
   for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
     std::uint32_t next = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      next ^= kTables[7 - i][(crc >> 8 * i & 0xFF) ^ bytes[i]] ^ kTables[3 - i][bytes[i + 4]];
+      next ^= kCrcTables[7 - i][(crc >> 8 * i & 0xFF) ^ bytes[i]] ^ kCrcTables[3 - i][bytes[i + 4]];
     }
     crc = next;
   }
-  for (const std::uint8_t byte : bytes) crc = crc >> 8 ^ kTables[0][(crc ^ byte) & 0xFF];
+  for (const std::uint8_t byte : bytes) crc = crc >> 8 ^ kCrcTables[0][(crc ^ byte) & 0xFF];
   return ~crc;
 }
 

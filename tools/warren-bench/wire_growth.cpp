@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-constexpr Point3f kGravity{0.0F, 0.0F, -1.0F};
+constexpr Point3f kDown{0.0F, 0.0F, -1.0F};
 constexpr double kCopyDistanceM = 128.0;
 // The least of so many counts, taken in turn: what else the machine does only ever adds.
 constexpr int kRepeats = 3;
@@ -43,7 +43,7 @@ class GrowingMap {
     Stopwatch publishing;
     Stopwatch applying;
     for (std::size_t i = 0; i < moved.scans.size(); ++i) {
-      pipeline_.run(moved.scan(i), kGravity, map_);
+      pipeline_.run(moved.scan(i), kDown, map_);
       if (i + 1 != moved.scans.size() && (i + 1) % scans_per_tick_ != 0) continue;
       const Revision from = layer_.holdings().at(0);
       publishing.time([&] { publish(); });

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kPoints = 200000;
 // The least of so many counts, after one to warm the cache: what else the machine does only adds.
-constexpr int kRepeats = 9;
+constexpr int kQueryRepeats = 9;
 // Each quarter reaches so far beyond the middle, as a share of the map's width.
 constexpr double kOverlap = 0.125;
 constexpr std::array<std::uint32_t, 4> kQuarters = {0, 1, 2, 3};
@@ -127,7 +127,7 @@ std::optional<QueryCost> bench_query(const Replica& layer, double resolution_m) 
   std::vector<VoxelState> ours(points.size());
   std::vector<VoxelState> theirs(points.size());
   QueryCost cost{1e300, 1e300, 0.0};
-  for (int i = 0; i <= kRepeats; ++i) {
+  for (int i = 0; i <= kQueryRepeats; ++i) {
     const std::size_t known = ask(points, ours, cost.ours_ns, [&](const auto& at, auto& states) {
       std::transform(at.begin(), at.end(), states.begin(),
                      [&](const Point3f& point) { return map.voxel(point).code.state(); });

@@ -8,9 +8,9 @@
 namespace warren::world {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kJumpM = 0.5;
-constexpr double kJumpRad = 3.0 * kDegree;
+constexpr double kJumpRad = 3.0 * kRadPerDegree;
 
 RobotSpec make_robot(const ScenarioOptions& options, std::uint32_t number) {
   RobotSpec robot;
@@ -20,8 +20,8 @@ RobotSpec make_robot(const ScenarioOptions& options, std::uint32_t number) {
   robot.lidar.columns = options.columns;
   robot.lidar.rate_hz = options.rate_hz;
   robot.speed_m_s = options.speed_m_s;
-  robot.sensor_tilt_rad = options.sensor_tilt_deg * kDegree;
-  robot.odometry.yaw_drift_rad_m = options.yaw_drift_deg_m * kDegree;
+  robot.sensor_tilt_rad = options.sensor_tilt_deg * kRadPerDegree;
+  robot.odometry.yaw_drift_rad_m = options.yaw_drift_deg_m * kRadPerDegree;
   robot.odometry.scale = options.scale_error;
   robot.odometry.noise_m = options.pose_noise_m;
   for (const double time_s : options.jumps_s) {

@@ -26,9 +26,9 @@ int failure(const std::string& why, int code = kFailure) {
   return code;
 }
 
-using Row = std::pair<const char*, std::uint64_t>;
+using CountRow = std::pair<const char*, std::uint64_t>;
 
-std::array<Row, 5> rows_of(const LayerDifference& difference) {
+std::array<CountRow, 5> rows_of(const LayerDifference& difference) {
   return {{{"only_in_a", difference.only_in_a},
            {"only_in_b", difference.only_in_b},
            {"occupancy", difference.occupancy},

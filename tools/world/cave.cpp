@@ -7,8 +7,8 @@
 namespace warren::world {
 namespace {
 
-constexpr double kLength_m = 250.0;
-constexpr double kMeshCell_m = 0.2;
+constexpr double kCaveLength_m = 250.0;
+constexpr double kCaveMeshCell_m = 0.2;
 
 RockField::Settings rock(std::uint64_t seed) {
   return {.section = Section::kOval,
@@ -24,11 +24,11 @@ RockField::Settings rock(std::uint64_t seed) {
 World make_cave(const WorldSpec& spec) {
   Random random(spec.seed);
   const Network network =
-      grow_cave(spec.length_m > 0.0 ? spec.length_m : kLength_m, random.fork(1));
+      grow_cave(spec.length_m > 0.0 ? spec.length_m : kCaveLength_m, random.fork(1));
   const RockField field(rock(random.fork(2).next()), network.passages, network.shafts);
 
   World world;
-  world.mesh = mesh_of(field, kMeshCell_m);
+  world.mesh = mesh_of(field, kCaveMeshCell_m);
   world.passages = network.graph;
   world.start = world.passages.nodes[0].position;
   world.start_yaw_rad = heading_rad(world.start, world.passages.nodes[1].position);

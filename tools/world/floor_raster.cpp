@@ -11,8 +11,8 @@
 namespace warren::world {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kFloorNormal = 0.7;
+constexpr double kNoFloor = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFloorNormalZ = 0.7;
 constexpr std::array<std::array<int, 2>, 8> kAround = {
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 
@@ -89,7 +89,7 @@ void FloorRaster::find_floors(const TriangleMesh& mesh, double headroom_m) {
     Eigen::AlignedBox3d bounds;
     for (std::size_t i = 0; i < 3; ++i)
       bounds.extend(t[i] = mesh.vertices[triangle[i]].cast<double>());
-    const bool is_floor = (t[1] - t[0]).cross(t[2] - t[0]).normalized().z() > kFloorNormal;
+    const bool is_floor = (t[1] - t[0]).cross(t[2] - t[0]).normalized().z() > kFloorNormalZ;
     const Eigen::Vector2i low = cell_of(bounds.min());
     const Eigen::Vector2i high = cell_of(bounds.max());
     for (int y = low.y(); y <= std::min(high.y(), height_ - 1); ++y) {
@@ -100,7 +100,7 @@ void FloorRaster::find_floors(const TriangleMesh& mesh, double headroom_m) {
       }
     }
   }
-  floor_z_m_.assign(surfaces.size(), kNone);
+  floor_z_m_.assign(surfaces.size(), kNoFloor);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     auto& column = surfaces[i];
     std::sort(column.begin(), column.end());

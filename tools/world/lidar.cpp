@@ -10,7 +10,7 @@ namespace warren::world {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNoHit_m = std::numeric_limits<float>::infinity();
 
 // From the makers' data sheets, ranges at 80 % reflectivity.
 struct Sheet {
@@ -58,7 +58,7 @@ float true_range_m(const Caster& caster, const std::vector<Cylinder>& cylinders,
 
 // NaN if the sensor reports nothing.
 float measured_range_m(const LidarModel& model, float range_m, Random& random) {
-  if (range_m == kInfinity || (model.dropout > 0.0 && random.chance(model.dropout))) return kNaN;
+  if (range_m == kNoHit_m || (model.dropout > 0.0 && random.chance(model.dropout))) return kNaN;
   if (model.range_noise_m > 0.0F)
     range_m += model.range_noise_m * static_cast<float>(random.normal());
   return range_m >= model.min_range_m && range_m <= model.max_range_m ? range_m : kNaN;

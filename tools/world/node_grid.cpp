@@ -7,12 +7,12 @@
 namespace warren::world {
 namespace {
 
-constexpr double kCell_m = 8.0;
+constexpr double kGridCell_m = 8.0;
 constexpr double kSameStorey_m = 2.5;
 constexpr double kLongestEdge_m = 8.0;
 
 std::int32_t cell_of(double coordinate_m) {
-  return static_cast<std::int32_t>(std::floor(coordinate_m / kCell_m));
+  return static_cast<std::int32_t>(std::floor(coordinate_m / kGridCell_m));
 }
 std::uint64_t key_of(std::int32_t x, std::int32_t y) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |

@@ -9,7 +9,7 @@
 namespace warren::world {
 namespace {
 
-constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr auto kNoNode = std::numeric_limits<std::uint32_t>::max();
 using Predecessors = std::vector<std::uint32_t>;
 
 // Dijkstra (1959) from one node, until `to` is settled. Ties go to the lower index.
@@ -21,7 +21,7 @@ Predecessors settle_until(const PassageGraph& graph, std::uint32_t from, std::ui
   };
   const auto near = graph.neighbours(true);
   std::vector<double> length_m(graph.nodes.size(), std::numeric_limits<double>::infinity());
-  Predecessors before(graph.nodes.size(), kNone);
+  Predecessors before(graph.nodes.size(), kNoNode);
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   length_m[from] = 0.0;
   open.push({0.0, from});
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> PassageGraph::shortest_path(std::uint32_t from, std::
   assert(from < nodes.size() && to < nodes.size());
   if (from == to) return {from};
   const Predecessors before = settle_until(*this, from, to);
-  if (before[to] == kNone) return {};
+  if (before[to] == kNoNode) return {};
   std::vector<std::uint32_t> path{to};
   while (path.back() != from) path.push_back(before[path.back()]);
   std::reverse(path.begin(), path.end());

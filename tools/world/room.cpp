@@ -11,8 +11,8 @@
 namespace warren::world {
 namespace {
 
-constexpr double kLength_m = 16.0;
-constexpr double kHeight_m = 3.0;
+constexpr double kRoomLength_m = 16.0;
+constexpr double kRoomHeight_m = 3.0;
 constexpr double kPlatform_m = 0.9;  // how high, and how far from its wall
 
 // Six walls seen from inside: a box turned inside out.
@@ -55,14 +55,14 @@ PassageGraph round_trip(double half_x, const Stairway& stairs) {
   const auto node = [](double x, double y, double z) { return PassageGraph::Node{{x, y, z}, 0.6}; };
   const double ramp_m = kPlatform_m / std::tan(20.0 * std::numbers::pi / 180.0);
   const double edge_x = half_x - 1.5;
-  const std::uint32_t first = ways.add_node(node(1.0 - half_x, -1.5, 0.0), kHeight_m);
-  std::uint32_t last = ways.add_way(first, node(1.0 - half_x, 1.5, 0.0), kHeight_m);
-  last = ways.add_way(last, node(stairs.foot.x() - stairs.run_m, 1.5, 0.0), kHeight_m);
-  last = ways.add_way(last, node(stairs.top().x(), 1.5, kPlatform_m), kHeight_m);
-  last = ways.add_way(last, node(edge_x + 0.75, 1.5, kPlatform_m), kHeight_m);
-  last = ways.add_way(last, node(edge_x + 0.75, -1.5, kPlatform_m), kHeight_m);
-  last = ways.add_way(last, node(edge_x, -1.5, kPlatform_m), kHeight_m);
-  last = ways.add_way(last, node(edge_x - ramp_m, -1.5, 0.0), kHeight_m);
+  const std::uint32_t first = ways.add_node(node(1.0 - half_x, -1.5, 0.0), kRoomHeight_m);
+  std::uint32_t last = ways.add_way(first, node(1.0 - half_x, 1.5, 0.0), kRoomHeight_m);
+  last = ways.add_way(last, node(stairs.foot.x() - stairs.run_m, 1.5, 0.0), kRoomHeight_m);
+  last = ways.add_way(last, node(stairs.top().x(), 1.5, kPlatform_m), kRoomHeight_m);
+  last = ways.add_way(last, node(edge_x + 0.75, 1.5, kPlatform_m), kRoomHeight_m);
+  last = ways.add_way(last, node(edge_x + 0.75, -1.5, kPlatform_m), kRoomHeight_m);
+  last = ways.add_way(last, node(edge_x, -1.5, kPlatform_m), kRoomHeight_m);
+  last = ways.add_way(last, node(edge_x - ramp_m, -1.5, 0.0), kRoomHeight_m);
   ways.join(last, first);
   return ways.graph;
 }
@@ -71,12 +71,12 @@ PassageGraph round_trip(double half_x, const Stairway& stairs) {
 
 World make_room(const WorldSpec& spec) {
   Random random(spec.seed);
-  const double length_m = spec.length_m > 0.0 ? spec.length_m : kLength_m;
+  const double length_m = spec.length_m > 0.0 ? spec.length_m : kRoomLength_m;
   const double half_x = std::max(4.0, length_m / 4.0);
   const double half_y = std::max(3.0, length_m / 6.0);
   World world;
-  world.mesh =
-      hollow({Eigen::Vector3d(-half_x, -half_y, 0.0), Eigen::Vector3d(half_x, half_y, kHeight_m)});
+  world.mesh = hollow(
+      {Eigen::Vector3d(-half_x, -half_y, 0.0), Eigen::Vector3d(half_x, half_y, kRoomHeight_m)});
   add_platform(world, half_x, half_y);
   const Eigen::Vector3d place(random.uniform(-half_x + 2.4, half_x - 5.0),
                               random.uniform(-0.2, 0.2), 0.2);

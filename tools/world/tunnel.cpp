@@ -8,11 +8,11 @@
 namespace warren::world {
 namespace {
 
-constexpr double kLength_m = 300.0;
+constexpr double kTunnelLength_m = 300.0;
 constexpr double kWayIn_m = 12.0;
-constexpr double kHalfWidth_m = 1.8;
-constexpr double kHeight_m = 2.8;
-constexpr double kMeshCell_m = 0.2;
+constexpr double kTunnelHalfWidth_m = 1.8;
+constexpr double kTunnelHeight_m = 2.8;
+constexpr double kTunnelMeshCell_m = 0.2;
 
 struct Plan {
   Network network;
@@ -23,11 +23,12 @@ struct Plan {
 Plan dig(double length_m, const Random& random) {
   Plan plan;
   const std::uint32_t door =
-      plan.network.add_node({Eigen::Vector3d::Zero(), kHalfWidth_m}, kHeight_m);
+      plan.network.add_node({Eigen::Vector3d::Zero(), kTunnelHalfWidth_m}, kTunnelHeight_m);
   const std::uint32_t first =
-      plan.network.add_way(door, {{kWayIn_m, 0.0, 0.0}, kHalfWidth_m}, kHeight_m);
-  DriftLattice lattice{
-      .length_m = length_m - kWayIn_m, .half_width_m = kHalfWidth_m, .height_m = kHeight_m};
+      plan.network.add_way(door, {{kWayIn_m, 0.0, 0.0}, kTunnelHalfWidth_m}, kTunnelHeight_m);
+  DriftLattice lattice{.length_m = length_m - kWayIn_m,
+                       .half_width_m = kTunnelHalfWidth_m,
+                       .height_m = kTunnelHeight_m};
   lattice.may_lie = [](const Eigen::Vector2i& place) { return place.x() >= 0; };
   plan.junctions = dig_lattice(plan.network, first, lattice, random);
   return plan;
@@ -37,7 +38,7 @@ Plan dig(double length_m, const Random& random) {
 
 World make_tunnel(const WorldSpec& spec) {
   Random random(spec.seed);
-  const Plan plan = dig(spec.length_m > 0.0 ? spec.length_m : kLength_m, random.fork(1));
+  const Plan plan = dig(spec.length_m > 0.0 ? spec.length_m : kTunnelLength_m, random.fork(1));
   const RockField field({.section = Section::kDrift,
                          .wall_noise_m = 0.1,
                          .wall_wavelength_m = 1.5,
@@ -46,7 +47,7 @@ World make_tunnel(const WorldSpec& spec) {
                          .seed = random.fork(2).next()},
                         plan.network.passages);
   World world;
-  world.mesh = mesh_of(field, kMeshCell_m);
+  world.mesh = mesh_of(field, kTunnelMeshCell_m);
   world.passages = plan.network.graph;
   world.start = world.passages.nodes[0].position;
   world.start_yaw_rad = heading_rad(world.start, world.passages.nodes[plan.junctions[0]].position);

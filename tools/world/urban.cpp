@@ -8,7 +8,7 @@
 namespace warren::world {
 namespace {
 
-constexpr double kLength_m = 300.0;
+constexpr double kUrbanLength_m = 300.0;
 // What a bay adds on both levels, and what the stairwells do.
 constexpr double kBayWays_m = 58.0;
 constexpr double kStairWays_m = 45.0;
@@ -16,7 +16,7 @@ constexpr double kStairWays_m = 45.0;
 }  // namespace
 
 World make_urban(const WorldSpec& spec) {
-  const double length_m = spec.length_m > 0.0 ? spec.length_m : kLength_m;
+  const double length_m = spec.length_m > 0.0 ? spec.length_m : kUrbanLength_m;
   const int bays =
       std::max(2, static_cast<int>(std::lround((length_m - kStairWays_m) / kBayWays_m)));
   Building building(bays, Random(spec.seed));

@@ -18,7 +18,7 @@ constexpr Duration kContradiction = milliseconds{30};
 constexpr int kStepSamples = 6;
 constexpr Duration kEmpty = milliseconds{3};
 
-Duration airtime(std::size_t ip_bytes, double rate) {
+Duration known_airtime(std::size_t ip_bytes, double rate) {
   return rate > 0.0 ? Duration{std::llround(static_cast<double>(ip_bytes) * 1e6 / rate)}
                     : Duration{0};
 }
@@ -50,15 +50,15 @@ void QueueDelay::on_sample(MeshTime now, const AckReport::Largest& sample, doubl
   move_window(now);
   const Duration one_way = unwrap(sample.sent, sample.arrived_us);
   const auto above = [&](LeastOfWindow& window, Duration value) {
-    const Duration own = airtime(sample.ip_bytes, rate);
+    const Duration own = known_airtime(sample.ip_bytes, rate);
     Least& least = window.newer;
     if (least.value == Duration::max() ||
-        value - own < least.value - airtime(least.ip_bytes, std::max(rate, least.rate))) {
+        value - own < least.value - known_airtime(least.ip_bytes, std::max(rate, least.rate))) {
       least = {value, sample.ip_bytes, rate};
     }
     least.rate = std::max(least.rate, rate);
     const Least& base = window.get();
-    return value - own - (base.value - airtime(base.ip_bytes, std::max(rate, base.rate)));
+    return value - own - (base.value - known_airtime(base.ip_bytes, std::max(rate, base.rate)));
   };
   Duration queue = std::max(above(one_way_, one_way), Duration{0});
   if (sample.rtt) {

@@ -13,10 +13,10 @@ constexpr std::size_t kAckBytes = 90;      // IP bytes of a packet that only ack
 constexpr double kAckShare = 0.025;        // of the bytes that arrive
 constexpr std::size_t kPacketsPerAck = 2;  // at least
 constexpr Duration kDelayMin = milliseconds{2};
-constexpr Duration kDelayMax = milliseconds{25};      // for one packet alone
-constexpr Duration kIntervalMax = milliseconds{160};  // between two, on the slowest links
-constexpr Duration kRest = milliseconds{500};         // after which
-constexpr int kQuickPackets = 16;                     // are acknowledged at once
+constexpr Duration kDelayMax = milliseconds{25};         // for one packet alone
+constexpr Duration kAckIntervalMax = milliseconds{160};  // between two, on the slowest links
+constexpr Duration kRest = milliseconds{500};            // after which
+constexpr int kQuickPackets = 16;                        // are acknowledged at once
 constexpr Duration kRepeatDelay = milliseconds{40};
 constexpr Duration kPairGapMax = std::chrono::seconds{1};
 constexpr int kTellTimes = 6;                 // a range, since its last change
@@ -105,7 +105,7 @@ void ReceivedPackets::schedule(MeshTime now, bool wants_ack) {
   if (!wants_ack) return;
   ++unacked_;
   repeat_ = false;
-  Duration interval = clamp_us(kAckBytes * 1e6 / (kAckShare * rate_), kDelayMin, kIntervalMax);
+  Duration interval = clamp_us(kAckBytes * 1e6 / (kAckShare * rate_), kDelayMin, kAckIntervalMax);
   if (quick_ > 0) {
     --quick_;
     interval = kDelayMin;

@@ -27,8 +27,8 @@ constexpr Duration kHeldTooLong = milliseconds{500};  // such a delay is no good
 constexpr Duration kRttMax = seconds{5};
 constexpr Duration kTripMax = seconds{8};  // with its variation
 constexpr Duration kPause = milliseconds{400};
-constexpr Duration kPairGapMax = seconds{1};  // as the receiver's
-constexpr double kLossGain = 1.0 / 64.0;
+constexpr Duration kPairSpacingMax = seconds{1};  // as the receiver's
+constexpr double kSentLossGain = 1.0 / 64.0;
 
 void move_all(std::vector<Ticket>& from, std::vector<Ticket>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
@@ -122,7 +122,7 @@ void SentPackets::add_pairs(std::uint64_t number) {
     if (first == nullptr || second == nullptr) return;
     if (first->fate != Fate::kAcked || second->fate != Fate::kAcked) return;
     const Duration spacing = second->packet.sent - first->packet.sent;
-    if (spacing > kPairGapMax || (spacing > kPause && !second->packet.busy)) {
+    if (spacing > kPairSpacingMax || (spacing > kPause && !second->packet.busy)) {
       ++pairs_.pauses;
       return;
     }
@@ -253,7 +253,7 @@ void SentPackets::measure_rtt(Duration rtt) {  // RFC 9002, 5.3
   *smoothed_rtt_ = (7 * *smoothed_rtt_ + rtt) / 8;
 }
 
-void SentPackets::measure_loss(bool lost) { loss_ += ((lost ? 1.0 : 0.0) - loss_) * kLossGain; }
+void SentPackets::measure_loss(bool lost) { loss_ += ((lost ? 1.0 : 0.0) - loss_) * kSentLossGain; }
 
 void SentPackets::forget_settled(MeshTime now) {
   if (now - last_decay_ > kDecayPeriod) {
