@@ -10,7 +10,7 @@ if(CCACHE)
 endif()
 
 # No NDEBUG anywhere: asserts guard against the programmer's errors in all builds.
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g")
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1")
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fno-omit-frame-pointer")
 set(CMAKE_C_FLAGS_SANITIZE "-O1 -g1")
 

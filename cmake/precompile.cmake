@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Most of a compile is parsing headers that never change: they are parsed once per set of flags.
-# clang-tidy does without, so each file still has to include what it uses; so does the build for
-# TSan: with them GCC 12 warns there about the inside of std::string.
+# clang-tidy does without, so each file still has to include what it uses.
 file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
 
 # warren_precompile(NAME headers...): of this target others reuse the precompiled headers.

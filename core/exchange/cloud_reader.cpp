@@ -40,16 +40,12 @@ Decoder decoder_of(const fs::path& file) {
   return nullptr;
 }
 
-tl::unexpected<std::string> failure(const fs::path& file, const std::string& why) {
-  return tl::make_unexpected(file.string() + ": " + why);
-}
-
 }  // namespace
 
 tl::expected<Cloud, std::string> read_cloud(const fs::path& file) {
   const Decoder decode = decoder_of(file);
   if (decode == nullptr) {
-    return failure(file, std::string("no cloud by its ending; known are ") + kKnownEndings);
+    return file_failure(file, std::string("no cloud by its ending; known are ") + kKnownEndings);
   }
   const auto bytes = read_file_bytes(file, kMaxCloudFileBytes);
   if (!bytes) return tl::make_unexpected(bytes.error());
@@ -58,30 +54,31 @@ tl::expected<Cloud, std::string> read_cloud(const fs::path& file) {
     if (!cloud) return tl::make_unexpected(cloud.error().located(file.string()));
     return *std::move(cloud);
   } catch (const std::bad_alloc&) {
-    return failure(file, "not enough memory for its points");
+    return file_failure(file, "not enough memory for its points");
   }
 }
 
 tl::expected<std::vector<fs::path>, std::string> list_clouds(const fs::path& file_or_directory) {
   std::error_code error;
   const auto status = fs::status(file_or_directory, error);
-  if (!fs::exists(status)) return failure(file_or_directory, "no such file or directory");
+  if (!fs::exists(status)) return file_failure(file_or_directory, "no such file or directory");
   if (!fs::is_directory(status)) return std::vector<fs::path>{file_or_directory};
   std::vector<fs::path> clouds;
   std::vector<fs::path> texts;
   std::size_t entries = 0;
   for (fs::directory_iterator it(file_or_directory, error), end; !error && it != end;
        it.increment(error)) {
-    if (++entries > kMaxDirectoryEntries) return failure(file_or_directory, "too many files");
+    if (++entries > kMaxDirectoryEntries) return file_failure(file_or_directory, "too many files");
     std::error_code ignored;
     const Decoder decode = decoder_of(it->path());
     if (decode == nullptr || !it->is_regular_file(ignored)) continue;
     (decode == decode_text_cloud ? texts : clouds).push_back(it->path());
   }
-  if (error) return failure(file_or_directory, error.message());
+  if (error) return file_failure(file_or_directory, error.message());
   if (clouds.empty()) clouds = std::move(texts);
   if (clouds.empty()) {
-    return failure(file_or_directory, std::string("holds no cloud; known are ") + kKnownEndings);
+    return file_failure(file_or_directory,
+                        std::string("holds no cloud; known are ") + kKnownEndings);
   }
   std::sort(clouds.begin(), clouds.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());

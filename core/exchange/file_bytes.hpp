@@ -13,4 +13,10 @@ namespace warren {
 tl::expected<std::string, std::string> read_file_bytes(const std::filesystem::path& file,
                                                        std::uint64_t max_bytes);
 
+// An error that names the file.
+inline tl::unexpected<std::string> file_failure(const std::filesystem::path& file,
+                                                const std::string& why) {
+  return tl::make_unexpected(file.string() + ": " + why);
+}
+
 }  // namespace warren

@@ -11,7 +11,6 @@
 namespace warren {
 namespace {
 
-constexpr double kYawMost_rad = 1000.0;
 constexpr std::size_t kNodeNameBytesMax = 32;
 constexpr std::size_t kMessageBytesMax = 200'000;
 
@@ -68,7 +67,7 @@ Decoded fleet_order(const control::FleetOrderRequest& request) {
   order.shift = {{request.x_m(), request.y_m(), request.z_m()}, request.yaw_rad()};
   const bool is_sane = order.shift.shift_fleet_m.allFinite() &&
                        order.shift.shift_fleet_m.cwiseAbs().maxCoeff() <= LayerPose::kReach_m &&
-                       std::abs(order.shift.yaw_rad) <= kYawMost_rad;
+                       std::abs(order.shift.yaw_rad) <= LayerShift::kYawMost_rad;
   if (!is_sane) return fault("fleet_order needs up to 1e8 m each way and 1000 rad");
   return order;
 }

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/control/fleet_desk_response.hpp"
 
+#include "daemon/control/encoded_fields.hpp"
 #include "proto/framing.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
 namespace {
-
-void fill(const LayerId& id, control::LayerId& message) {
-  message.set_origin(id.origin);
-  message.set_number(id.number);
-  message.set_incarnation(id.incarnation);
-}
 
 void fill(const InboxMessage& held, const std::string& from, control::ReceivedMessage& message) {
   message.set_number(held.number);

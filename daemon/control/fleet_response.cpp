@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "daemon/control/encoded_fields.hpp"
 #include "daemon/control/response.hpp"
 #include "proto/framing.hpp"
 #include "transport/udp/address_text.hpp"
@@ -8,14 +9,6 @@
 
 namespace warren {
 namespace {
-
-using Counts = google::protobuf::RepeatedPtrField<control::Count>;
-
-void add_count(const char* name, std::uint64_t count, Counts& counts) {
-  auto* const entry = counts.Add();
-  entry->set_name(name);
-  entry->set_count(count);
-}
 
 void fill(const replication::MapTraffic& traffic, control::MapTraffic& message) {
   message.set_fresh_bytes(traffic.fresh_bytes);
@@ -47,9 +40,7 @@ std::string name_of(const FleetReport& report, MemberId member) {
 }
 
 void fill(const FleetReport& report, const FleetLayerReport& layer, control::FleetLayer& message) {
-  message.mutable_layer()->set_origin(layer.id.origin);
-  message.mutable_layer()->set_number(layer.id.number);
-  message.mutable_layer()->set_incarnation(layer.id.incarnation);
+  fill(layer.id, *message.mutable_layer());
   message.set_own(layer.own);
   message.set_resolution_m(layer.resolution.metres());
   message.set_held_everywhere(layer.held_everywhere.number);

@@ -8,6 +8,8 @@ namespace warren {
 // How a layer lies apart from where its pose puts it: turned about the vertical through its origin,
 // then shifted.
 struct LayerShift {
+  static constexpr double kYawMost_rad = 1000.0;  // either way
+
   Eigen::Vector3d shift_fleet_m = Eigen::Vector3d::Zero();
   double yaw_rad = 0.0;
 };

@@ -3,22 +3,13 @@
 
 #include <cmath>
 
+#include "daemon/control/decoded_fields.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
 namespace {
 
-using Doubles = google::protobuf::RepeatedField<double>;
-
 tl::unexpected<std::string> refused(const char* why) { return tl::unexpected(std::string(why)); }
-
-MapSource source_of(control::MapSource source) {
-  return source == control::MERGE ? MapSource::kMerge : MapSource::kSelf;
-}
-
-Eigen::Vector3d vector_at(const Doubles& field, int first) {
-  return {field[first], field[first + 1], field[first + 2]};
-}
 
 bool lies_within(double value, double least, double most) {
   return value >= least && value <= most;

@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "daemon/control/encoded_fields.hpp"
 #include "daemon/control/response.hpp"
 #include "proto/framing.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
-namespace {
-
-void add_vector(const Eigen::Vector3d& v, google::protobuf::RepeatedField<double>& field) {
-  for (const double coordinate : v) field.Add(coordinate);
-}
-
-const char* name_of(VoxelState state) {
-  if (state == VoxelState::kOccupied) return "occupied";
-  return state == VoxelState::kFree ? "free" : "unknown";
-}
-
-}  // namespace
-
 std::string encode_blocks(const BlocksAnswer& answer) {
   control::Response response;
   auto& blocks = *response.mutable_blocks();

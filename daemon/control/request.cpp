@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/layer/layer_pose.hpp"
+#include "daemon/control/decoded_fields.hpp"
 #include "daemon/control/fleet_decoder.hpp"
 #include "daemon/control/planner_request.hpp"
 #include "warren/control.pb.h"
@@ -13,7 +14,6 @@ namespace warren {
 namespace {
 
 constexpr std::uint32_t kVoxelDepth = 16;
-constexpr double kYawMost_rad = 1000.0;
 constexpr std::size_t kMaxNodeNameBytes = 32;
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
@@ -26,10 +26,6 @@ std::optional<std::string> fault_of_path(const std::string& request, const std::
     return request + ".path has control characters";
   }
   return std::nullopt;
-}
-
-MapSource source_of(control::MapSource source) {
-  return source == control::MERGE ? MapSource::kMerge : MapSource::kSelf;
 }
 
 PictureColours colours_of(control::PictureColours colours) {
@@ -65,12 +61,6 @@ tl::expected<ControlRequest, std::string> load_order(const control::MapLoadReque
     return tl::unexpected(*std::move(fault));
   }
   return LoadOrder{request.path()};
-}
-
-using Doubles = google::protobuf::RepeatedField<double>;
-
-Eigen::Vector3d vector_at(const Doubles& field, int first) {
-  return {field[first], field[first + 1], field[first + 2]};
 }
 
 tl::expected<ControlRequest, std::string> ground_question(const control::GroundRequest& request) {
@@ -152,7 +142,7 @@ tl::expected<ControlRequest, std::string> move_order(const control::MapMoveReque
                         {{request.x_m(), request.y_m(), request.z_m()}, request.yaw_rad()}};
   const bool is_sane = order.shift.shift_fleet_m.allFinite() &&
                        order.shift.shift_fleet_m.cwiseAbs().maxCoeff() <= LayerPose::kReach_m &&
-                       std::abs(order.shift.yaw_rad) <= kYawMost_rad;
+                       std::abs(order.shift.yaw_rad) <= LayerShift::kYawMost_rad;
   if (!is_sane) {
     return tl::unexpected(std::string("map_move needs up to 1e8 m each way and 1000 rad"));
   }

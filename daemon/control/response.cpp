@@ -2,15 +2,12 @@
 #include "daemon/control/response.hpp"
 
 #include "core/layer/hash_text.hpp"
+#include "daemon/control/encoded_fields.hpp"
 #include "proto/framing.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
 namespace {
-
-void add_vector(const Eigen::Vector3d& v, google::protobuf::RepeatedField<double>& field) {
-  for (const double coordinate : v) field.Add(coordinate);
-}
 
 void add_pose(const Pose& pose, google::protobuf::RepeatedField<double>& field) {
   add_vector(pose.translation, field);
@@ -41,13 +38,6 @@ void fill(const MapInfoReport& report, control::MapInfo& info) {
   if (report.current) fill(*report.current, info);
 }
 
-void add_count(const std::string& name, std::uint64_t count,
-               google::protobuf::RepeatedPtrField<control::Count>& counts) {
-  auto* const entry = counts.Add();
-  entry->set_name(name);
-  entry->set_count(count);
-}
-
 void fill(const IngestStatus& ingest, control::Status& status) {
   status.set_clients(ingest.clients);
   status.set_replies_dropped(ingest.replies_dropped);
@@ -76,12 +66,6 @@ void fill(const MapperStatus& mapper, control::Status& status) {
   status.set_integrate_cpu_ms_max(mapper.integrate_cpu_ms_max);
 }
 
-void fill(const LayerId& id, control::LayerId& message) {
-  message.set_origin(id.origin);
-  message.set_number(id.number);
-  message.set_incarnation(id.incarnation);
-}
-
 void fill(const PublishingReport& report, control::Publishing& publishing) {
   publishing.set_layers(report.layers);
   publishing.set_ticks(report.ticks);
@@ -94,11 +78,6 @@ void fill(const PublishingReport& report, control::Publishing& publishing) {
   fill(report.current->id, *publishing.mutable_layer());
   publishing.set_revision(report.current->revision.number);
   publishing.set_digest(hex_of(report.current->digest));
-}
-
-const char* name_of(VoxelState state) {
-  if (state == VoxelState::kOccupied) return "occupied";
-  return state == VoxelState::kFree ? "free" : "unknown";
 }
 
 void fill(const LayerMemory& memory, control::LayerMemory& message) {

@@ -11,7 +11,7 @@ constexpr std::int32_t kBlockMin = kKeyMin / kBlockEdge;
 constexpr std::int32_t kBlockMax = (kKeyMax + 1) / kBlockEdge - 1;
 constexpr std::size_t kKeyBytesMax = 9;  // three numbers of 14 bits as protobuf packs them
 // A corner on a block's border may be a rounding off.
-constexpr double kSlack = 1e-9;
+constexpr double kCornerSlack_m = 1e-9;
 
 bool is_unknown(const BlockVoxels& voxels) {
   return std::all_of(voxels.begin(), voxels.end(),
@@ -77,8 +77,8 @@ BlockBox blocks_in(const std::optional<MapBox>& box, double resolution_m,
     const double block = std::clamp(std::floor(place_m / edge_m), kBlockMin - 1.0, kBlockMax + 1.0);
     return static_cast<std::int32_t>(block);
   };
-  const Eigen::Vector3d low = box->low - origin_map - Eigen::Vector3d::Constant(kSlack);
-  const Eigen::Vector3d high = box->high - origin_map + Eigen::Vector3d::Constant(kSlack);
+  const Eigen::Vector3d low = box->low - origin_map - Eigen::Vector3d::Constant(kCornerSlack_m);
+  const Eigen::Vector3d high = box->high - origin_map + Eigen::Vector3d::Constant(kCornerSlack_m);
   const auto from = [&](double place_m) { return std::max(block_at(place_m), kBlockMin); };
   const auto to = [&](double place_m) { return std::min(block_at(place_m), kBlockMax); };
   return {{from(low.x()), from(low.y()), from(low.z())},

@@ -7,7 +7,7 @@ namespace warren {
 namespace {
 
 // A corner or a voxel's edge may be a rounding off.
-constexpr double kSlack = 1e-9;
+constexpr double kEdgeSlack = 1e-9;
 
 std::optional<int> level_of(const CellsQuestion& question, double resolution_m) {
   if (const auto* const depth = std::get_if<std::uint32_t>(&question.size)) {
@@ -15,7 +15,7 @@ std::optional<int> level_of(const CellsQuestion& question, double resolution_m) 
   }
   const double cell_m = std::get<double>(question.size);
   for (int level = 0; level <= CodeOctree::kRootLevel; ++level) {
-    if (resolution_m * (1 << level) * (1.0 + kSlack) >= cell_m) return level;
+    if (resolution_m * (1 << level) * (1.0 + kEdgeSlack) >= cell_m) return level;
   }
   return std::nullopt;
 }

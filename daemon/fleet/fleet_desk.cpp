@@ -10,7 +10,7 @@ namespace {
 using replication::ItemKind;
 using replication::ItemNumber;
 
-constexpr const char* kNotStored = "it could not be stored, and is not sent";
+constexpr const char* kNotSent = "it could not be stored, and is not sent";
 
 }  // namespace
 
@@ -105,7 +105,7 @@ void FleetDesk::send(MeshTime now, const MessageSendOrder& order, std::int64_t t
   const auto number = messages_.send(now, message);
   if (!number) return answer(tl::unexpected(number.error()));
   when_stored(*number, [answer = std::move(answer), number = *number](bool stored) {
-    stored ? answer(number) : answer(tl::unexpected(std::string(kNotStored)));
+    stored ? answer(number) : answer(tl::unexpected(std::string(kNotSent)));
   });
 }
 

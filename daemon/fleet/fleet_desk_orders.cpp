@@ -11,7 +11,7 @@ namespace {
 
 using replication::ItemNumber;
 
-constexpr const char* kNotStored = "it could not be stored, and is not ordered";
+constexpr const char* kNotOrdered = "it could not be stored, and is not ordered";
 constexpr const char* kNoBase =
     "this node is a robot: only a base gives orders to the fleet; map retract, restore and move "
     "are for this node alone";
@@ -139,7 +139,7 @@ void FleetDesk::order(MeshTime now, const FleetOrder& wanted,
     if (!last) return answer(tl::unexpected(std::string("this node's log is full")));
   }
   when_stored(*last, [this, items, layers, answer = std::move(answer)](bool stored) {
-    if (!stored) return answer(tl::unexpected(std::string(kNotStored)));
+    if (!stored) return answer(tl::unexpected(std::string(kNotOrdered)));
     for (const replication::Item& item : items) (void)orders_.note(parts_.self.number, item);
     parts_.turn_soon();
     answer(layers);

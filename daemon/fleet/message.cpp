@@ -14,7 +14,7 @@ using replication::Item;
 using replication::ItemKind;
 
 // So that no item of another kind has the same name.
-constexpr std::uint8_t kNameMark = 'm';
+constexpr std::uint8_t kMessageMark = 'm';
 constexpr std::size_t kNameHeadBytes = 5;
 constexpr std::uint32_t kEverybody = UINT32_MAX;
 
@@ -26,7 +26,7 @@ Item item_of(const Message& message) {
   item.to = message.to;
   if (!message.key.empty()) {
     mesh::PacketWriter name(item.name);
-    name.byte(kNameMark);
+    name.byte(kMessageMark);
     name.fixed(message.to ? message.to->number : kEverybody, 4);
     for (const char c : message.key) name.byte(static_cast<std::uint8_t>(c));
   }
@@ -51,7 +51,7 @@ std::optional<Message> read_message(const Item& item) {
   message.bytes.assign(bytes.begin(), bytes.end());
   if (item.name.empty()) return message;
   mesh::PacketReader name(item.name);
-  const bool is_ours = name.fixed(1) == kNameMark &&
+  const bool is_ours = name.fixed(1) == kMessageMark &&
                        name.fixed(4) == (item.to ? item.to->number : kEverybody) && !name.at_end();
   if (!is_ours) return std::nullopt;
   message.key.assign(item.name.begin() + kNameHeadBytes, item.name.end());

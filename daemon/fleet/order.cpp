@@ -13,7 +13,7 @@ namespace {
 using replication::Item;
 using replication::ItemKind;
 
-constexpr std::uint8_t kNameMark = 'o';
+constexpr std::uint8_t kOrderMark = 'o';
 
 void write_subject(mesh::PacketWriter& to, const Order& order) {
   to.fixed(order.node, 4);
@@ -64,7 +64,7 @@ Item item_of(const Order& order) {
   Item item;
   item.kind = ItemKind::kCommand;
   mesh::PacketWriter name(item.name);
-  name.byte(kNameMark);
+  name.byte(kOrderMark);
   name.byte(aligns ? 1 : 0);
   write_subject(name, order);
   mesh::PacketWriter writer(item.bytes);

@@ -13,7 +13,7 @@ namespace {
 using replication::Item;
 using replication::ItemKind;
 
-constexpr std::uint8_t kNameMark = 't';
+constexpr std::uint8_t kPathMark = 't';
 constexpr double kCentimetre = 0.01;
 constexpr std::int64_t kMillisecond_us = 1000;
 constexpr std::int64_t kReach_cm = 1'000'000'000;
@@ -73,7 +73,7 @@ std::optional<Whole> read_next(mesh::PacketReader& from, const Whole& before) {
 std::vector<std::uint8_t> name_of(const PathChunk& chunk) {
   std::vector<std::uint8_t> name;
   mesh::PacketWriter writer(name);
-  writer.byte(kNameMark);
+  writer.byte(kPathMark);
   replication::write(writer, chunk.layer);
   writer.fixed(chunk.number, 4);
   return name;

@@ -18,7 +18,6 @@ namespace warren::replication {
 // say which is which. In one boot a number never means another layer.
 using Slot = std::uint16_t;
 inline constexpr Slot kSlotsMax = 256;
-inline constexpr std::size_t kDiffOverhead = 3;  // of a DiffMessage: kind and slot
 
 inline constexpr RegionOrdinal kRegionEnd = region_of(kOrdinalEnd);  // behind the last
 

@@ -68,13 +68,14 @@ TEST_CASE("an empty file is the defaults") {
 
 TEST_CASE("the shipped configs are the commented prints of the defaults") {
   const std::filesystem::path folder = std::filesystem::path(WARREN_SOURCE_DIR) / "config";
-  for (const auto& [name, defaults] :
+  for (const auto& [role, defaults] :
        {std::pair{"robot", Config{}}, std::pair{"base", Config::of_base()}}) {
-    CAPTURE(name);
-    const auto loaded = load_config(folder / (std::string(name) + ".yaml"));
+    const auto file = folder / (std::string(role) + ".yaml");
+    CAPTURE(file);
+    const auto loaded = load_config(file);
     REQUIRE_MESSAGE(loaded.has_value(), join_lines(loaded.error()));
     CHECK(*loaded == defaults);
-    CHECK_MESSAGE(text_of(folder / (std::string(name) + ".yaml")) == print_sample(defaults),
+    CHECK_MESSAGE(text_of(file) == print_sample(defaults),
                   "regenerate it: warrend --print-sample ROLE >config/ROLE.yaml");
   }
 }

@@ -118,11 +118,14 @@ case_the_ground_can_be_asked_about() {
   stop_daemon
 }
 
-case_a_world_is_drawn_and_its_radio_told() {
+case_a_world_is_drawn() {
   "$bin/warren-sim" render --world room --out "$work/pictures" 2>/dev/null
   for picture in outside cutaway plan robot; do
     [ "$(stat -c %s "$work/pictures/$picture.png")" -gt 20000 ] || fail "$picture.png is empty"
   done
+}
+
+case_the_radio_of_a_world_is_told() {
   "$bin/warren-sim" radio --world tunnel --robots 2 --seconds 20 --out "$work/radio" 2>/dev/null
   head -n 1 "$work/radio/radio.csv" | grep -q '^time_s,from,to,loss,rate_bit_s$' || fail "no header"
   grep -q ',base,robot-1,' "$work/radio/radio.csv" || fail "the base hears no robot"

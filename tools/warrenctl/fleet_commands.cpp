@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tools/warrenctl/ask.hpp"
+#include "tools/warrenctl/failure.hpp"
 #include "tools/warrenctl/loaded_layer.hpp"
 #include "tools/warrenctl/message_watch.hpp"
 #include "tools/warrenctl/tables.hpp"
@@ -21,11 +22,6 @@ namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;  // in degrees
 constexpr double kMicro = 1e-6;
-
-int failure(const std::string& why) {
-  std::cerr << "warrenctl: " << why << "\n";
-  return 1;
-}
 
 tl::expected<std::string, std::string> content_of(const MessageSendCommand& command) {
   if (command.file.empty()) return command.text;

@@ -13,18 +13,13 @@
 #include "core/exchange/octomap_reader.hpp"
 #include "core/layer/hash_text.hpp"
 #include "core/layer/layer_difference.hpp"
+#include "tools/warrenctl/failure.hpp"
 
 namespace warren {
 namespace {
 
-constexpr int kFailure = 1;
 constexpr int kDiffer = 1;
 constexpr int kDiffFailure = 2;
-
-int failure(const std::string& why, int code = kFailure) {
-  std::cerr << "warrenctl: " << why << "\n";
-  return code;
-}
 
 using CountRow = std::pair<const char*, std::uint64_t>;
 

@@ -11,6 +11,7 @@
 #include "daemon/key_file.hpp"
 #include "tools/warrenctl/ask.hpp"
 #include "tools/warrenctl/cli.hpp"
+#include "tools/warrenctl/failure.hpp"
 #include "tools/warrenctl/fleet_table.hpp"
 #include "tools/warrenctl/layer_watch.hpp"
 #include "tools/warrenctl/loaded_layer.hpp"
@@ -28,10 +29,7 @@ const std::string kClearScreen = "\x1b[H\x1b[2J";
 template <typename Show>
 int ask_and_show(const std::string& socket, const control::Request& request, const Show& show) {
   const auto response = ask_daemon(socket, request);
-  if (!response) {
-    std::cerr << "warrenctl: " << response.error() << "\n";
-    return kExitFailure;
-  }
+  if (!response) return failure(response.error(), kExitFailure);
   std::cout << show(*response);
   return 0;
 }
@@ -182,10 +180,8 @@ struct Executor {
   }
   int operator()(const FleetCommand& command) const { return run(command, socket); }
   int operator()(const KeyNewCommand& command) const {
-    if (const auto made = make_key_file(command.file); !made) {
-      std::cerr << "warrenctl: " << made.error() << "\n";
-      return kExitFailure;
-    }
+    if (const auto made = make_key_file(command.file); !made)
+      return failure(made.error(), kExitFailure);
     std::cout << "wrote " << command.file.string()
               << ": copy it to every member of the fleet, for the daemon's user alone\n";
     return 0;
@@ -195,10 +191,7 @@ struct Executor {
   template <typename Fill>
   int ask_about_layer(const std::string& name, const Fill& fill) const {
     const auto id = find_loaded_layer(socket, name);
-    if (!id) {
-      std::cerr << "warrenctl: " << id.error() << "\n";
-      return kExitFailure;
-    }
+    if (!id) return failure(id.error(), kExitFailure);
     control::Request request;
     fill(*id, request);
     return ask_and_show(socket, request, [](const control::Response& response) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/flow/seconds.hpp"
+
 namespace warren::mesh {
 namespace {
 
@@ -51,9 +53,6 @@ constexpr double kGiveUpPackets = 20.0;  // arrived without a pair
 constexpr Duration kFollowSpan = milliseconds{200};
 constexpr Duration kJoinAfter = seconds{2};
 constexpr Duration kEmptyPeriod = seconds{8};
-
-double s(Duration duration) { return static_cast<double>(duration.count()) * 1e-6; }
-Duration from_s(double value) { return Duration{std::llround(value * 1e6)}; }
 
 }  // namespace
 
@@ -251,10 +250,6 @@ void RateController::forget_path(std::uint64_t next) {
 void RateController::set_rate(double rate) {
   rate_ = std::clamp(rate, kRateMin, kRateMax);
   known_ = true;
-}
-
-Duration RateController::round_trip() const {
-  return queue_.least_rtt().value_or(milliseconds{100});
 }
 
 // Less for fast flows: two that share a queue find the same rate.

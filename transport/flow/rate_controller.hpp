@@ -64,7 +64,9 @@ class RateController {
   Duration target() const;
   bool queue_shows() const;
   double uncertainty(const ArrivalRate::Measure& seen) const;
-  Duration round_trip() const;
+  Duration round_trip() const {
+    return queue_.least_rtt().value_or(std::chrono::milliseconds{100});
+  }
 
   Config config_;
   ArrivalRate arrivals_;

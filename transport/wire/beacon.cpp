@@ -2,7 +2,6 @@
 #include "transport/wire/beacon.hpp"
 
 #include <cassert>
-#include <limits>
 
 #include "transport/wire/packet_reader.hpp"
 #include "transport/wire/packet_writer.hpp"
@@ -11,9 +10,6 @@ namespace warren::mesh {
 namespace {
 
 constexpr std::size_t kHeardBytes = 5;
-
-template <typename T>
-constexpr std::uint64_t kMaxOf = std::numeric_limits<T>::max();
 
 }  // namespace
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <limits>
 
 #include "transport/wire/frame_types.hpp"
 #include "transport/wire/frames.hpp"
@@ -8,9 +7,6 @@
 
 namespace warren::mesh {
 namespace {
-
-template <typename T>
-constexpr std::uint64_t kMaxOf = std::numeric_limits<T>::max();
 
 std::vector<std::uint8_t> copy_of(std::span<const std::uint8_t> bytes) {
   return {bytes.begin(), bytes.end()};

@@ -3,10 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace warren::mesh {
+
+template <typename T>
+inline constexpr std::uint64_t kMaxOf = std::numeric_limits<T>::max();
 
 // Takes fields from the front of a packet, as PacketWriter put them. Nothing when the bytes end
 // early, when a number is not in its shortest form or when it is above the caller's limit.

@@ -14,6 +14,7 @@
 #include "tests/daemon/store/opened_store.hpp"
 #include "tests/daemon/temporary_directory.hpp"
 #include "tests/support/simulated_scans.hpp"
+#include "tests/support/under_sanitizer.hpp"
 
 using namespace warren;
 using namespace warren::test;
@@ -101,6 +102,10 @@ void commit_all(Store& store, const std::vector<StoreBatch>& batches) {
 }  // namespace
 
 TEST_CASE("figures of a map of 50 MB, printed") {
+  if (test::kUnderSanitizer) {
+    MESSAGE("SKIPPED: they would be those of the sanitizer");
+    return;
+  }
   const SelfMap map = large_map();
   Replica layer({1, 0, 5}, kDefaultResolution);
   const auto batches = batches_of(map, layer, 4096);

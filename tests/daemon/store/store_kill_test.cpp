@@ -10,13 +10,14 @@
 #include "tests/daemon/store/opened_store.hpp"
 #include "tests/daemon/store/store_scenario.hpp"
 #include "tests/daemon/temporary_directory.hpp"
+#include "tests/support/under_sanitizer.hpp"
 
 using namespace warren;
 using namespace warren::test;
 
 namespace {
 
-constexpr std::uint32_t kKills = 40;
+constexpr std::uint32_t kKills = test::kUnderSanitizer ? 12 : 40;
 
 void acknowledge(int log, std::uint64_t step) {
   if (write(log, &step, sizeof step) != sizeof step) _exit(3);
