@@ -42,7 +42,8 @@ FloatRows rows_of(const ExportedMap& map, const std::vector<float>& values) {
   if (!map.others) return {{kNames.begin(), kNames.begin() + kColumns}, values};
   FloatRows rows{kNames, values, kTypes};
   for (std::size_t source = 0; source <= map.others->size(); ++source) {
-    rows.comments.push_back(line_of_source(static_cast<SourceNumber>(source), *map.others));
+    rows.comments.push_back(
+        line_of_source(static_cast<SourceNumber>(source), *map.others, map.other_names));
   }
   return rows;
 }

@@ -51,13 +51,16 @@ ExportedMap exported(const Replica& layer) {
 }
 
 ExportedMap exported(const MergedSnapshot& map) {
-  return {map.resolution_m(), SensorModel::octomap_default(), map.counts(),
+  return {map.resolution_m(),
+          SensorModel::octomap_default(),
+          map.counts(),
           [&map](const ExportedMap::Visit& visit) {
             map.for_each_known([&](const VoxelKey& key, VoxelCode code, SourceNumber source) {
               visit(voxel_of(key, code, source));
             });
           },
-          map.others()};
+          map.others(),
+          map.other_names()};
 }
 
 }  // namespace warren

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/exchange/map_snapshot.hpp"
@@ -31,6 +32,7 @@ struct ExportedMap {
   std::function<void(const Visit&)> for_each_known;
   // Whose voxels have the source numbers from 1 on; nothing where voxels have no source.
   std::optional<std::vector<LayerId>> others = std::nullopt;
+  std::vector<std::string> other_names = {};  // of the nodes that made them
 };
 
 ExportedMap exported(const MapSnapshot& map);

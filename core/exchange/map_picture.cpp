@@ -220,8 +220,8 @@ class MapPicture {
     const std::size_t others = map_.others ? map_.others->size() : 0;
     const std::size_t named = std::min(others, kSourceColours - 1);
     for (std::size_t i = 0; i < named; ++i) {
-      entries.push_back(
-          {colour_of_source(static_cast<SourceNumber>(i + 1)), short_name_of((*map_.others)[i])});
+      entries.push_back({colour_of_source(static_cast<SourceNumber>(i + 1)),
+                         short_name_of((*map_.others)[i], map_.other_names[i])});
     }
     if (others > named) {
       entries.push_back({colour_of_source(static_cast<SourceNumber>(named + 1)),

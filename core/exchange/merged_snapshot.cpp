@@ -71,6 +71,7 @@ class MergedSnapshotMaker {
     made_.numbers_.assign(is_used_.size(), 0);
     for (const auto& [layer, index] : others) {
       made_.others_.push_back(layer);
+      made_.other_names_.emplace_back();
       made_.numbers_[index] = static_cast<SourceNumber>(made_.others_.size());
     }
   }
@@ -78,6 +79,11 @@ class MergedSnapshotMaker {
   MergedSnapshot made_;
   std::vector<bool> is_used_;  // by SourceIndex
 };
+
+void MergedSnapshot::name_others(const std::function<std::string(const LayerId&)>& name_of) {
+  other_names_.clear();
+  for (const LayerId& layer : others_) other_names_.push_back(name_of(layer));
+}
 
 VoxelState MergedSnapshot::state(const VoxelKey& key) const {
   if (!KeyBox{}.contains(key)) return VoxelState::kUnknown;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,6 +30,10 @@ class MergedSnapshot {
   const LayerOrigin& origin() const { return origin_; }
   // The layers of others that have a voxel here, by rising id.
   const std::vector<LayerId>& others() const { return others_; }
+  // The names of the nodes that made them, in the same order; empty where one has none.
+  const std::vector<std::string>& other_names() const { return other_names_; }
+  // `name_of` is called once for each of them.
+  void name_others(const std::function<std::string(const LayerId&)>& name_of);
   const MapCounts& counts() const { return counts_; }
   // Smallest box of blocks that holds all known voxels; nothing when there are none.
   const std::optional<KeyBox>& bounds() const { return bounds_; }
@@ -53,6 +58,7 @@ class MergedSnapshot {
   double resolution_m_ = 0.1;
   LayerOrigin origin_;
   std::vector<LayerId> others_;
+  std::vector<std::string> other_names_;
   std::vector<SourceNumber> numbers_;  // by the merge-map's SourceIndex
   MapCounts counts_;
   std::optional<KeyBox> bounds_;

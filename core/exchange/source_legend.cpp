@@ -23,18 +23,21 @@ Colour colour_of_source(SourceNumber source) {
   return source < kColours.size() ? kColours[source] : kFurther;
 }
 
-std::string short_name_of(const LayerId& layer) {
-  return "robot " + std::to_string(layer.origin) + " layer " + std::to_string(layer.number);
+std::string short_name_of(const LayerId& layer, const std::string& node) {
+  const std::string name = node.empty() ? "robot " + std::to_string(layer.origin) : node;
+  return name + " layer " + std::to_string(layer.number);
 }
 
-std::string line_of_source(SourceNumber source, const std::vector<LayerId>& others) {
+std::string line_of_source(SourceNumber source, const std::vector<LayerId>& others,
+                           const std::vector<std::string>& names) {
   if (source == 0) return "source 0: this robot";
   const LayerId& layer = others[source - std::size_t{1}];
+  const std::string& name = names[source - std::size_t{1}];
   std::array<char, 17> incarnation{};
   std::snprintf(incarnation.data(), incarnation.size(), "%016llx",
                 static_cast<unsigned long long>(layer.incarnation));
-  return "source " + std::to_string(source) + ": " + short_name_of(layer) + " incarnation " +
-         incarnation.data();
+  return "source " + std::to_string(source) + ": " + short_name_of(layer, "") + " incarnation " +
+         incarnation.data() + (name.empty() ? "" : " " + name);
 }
 
 }  // namespace warren

@@ -17,9 +17,10 @@ inline constexpr std::size_t kSourceColours = 8;
 // which people with any colour vision tell apart.
 Colour colour_of_source(SourceNumber source);
 
-// "robot 7 layer 1".
-std::string short_name_of(const LayerId& layer);
-// "source 1: robot 7 layer 1 incarnation 00000000000000ab". Source 0 is "this robot".
-std::string line_of_source(SourceNumber source, const std::vector<LayerId>& others);
+// "robot-2 layer 1", or "robot 7 layer 1" of a node without a name.
+std::string short_name_of(const LayerId& layer, const std::string& node);
+// "source 1: robot 7 layer 1 incarnation 00000000000000ab robot-2". Source 0 is "this robot".
+std::string line_of_source(SourceNumber source, const std::vector<LayerId>& others,
+                           const std::vector<std::string>& names);
 
 }  // namespace warren

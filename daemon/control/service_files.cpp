@@ -133,7 +133,14 @@ void ControlService::save_copy(const SaveOrder& order, const Respond& done) {
 void ControlService::save_merged(const SaveOrder& order, const Respond& done) {
   const bool asked = parts_.fleet.ask(
       [this, order, done, guard = asio::make_work_guard(parts_.io)](const FleetParts& fleet) {
-        asio::post(files_, [this, order, done, guard, merged = fleet.map.merged_snapshot()] {
+        const auto merged = fleet.map.merged_snapshot();
+        if (merged) {
+          merged->name_others([&](const LayerId& layer) {
+            const MemberId writer{layer.origin};
+            return fleet.mesh.knows_name_of(writer) ? fleet.mesh.name_of(writer) : "";
+          });
+        }
+        asio::post(files_, [this, order, done, guard, merged] {
           asio::post(parts_.io,
                      [done, frame = encode_saved(order.path, save_merged_to(order, merged.get()))] {
                        done(frame);

@@ -151,9 +151,9 @@ tl::expected<CellsAnswer, std::string> FleetMap::cells(const CellsQuestion& ques
                      on_merge ? cells_of(merge_, *grid) : cells_of(*current(), *grid)};
 }
 
-std::shared_ptr<const MergedSnapshot> FleetMap::merged_snapshot() {
+std::shared_ptr<MergedSnapshot> FleetMap::merged_snapshot() {
   if (own_.empty() && loaded_.size() == 0) return nullptr;
-  return std::make_shared<const MergedSnapshot>(snapshot_of(merge_, merge_origin_map_));
+  return std::make_shared<MergedSnapshot>(snapshot_of(merge_, merge_origin_map_));
 }
 
 const Replica* FleetMap::current() const {

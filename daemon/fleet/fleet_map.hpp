@@ -141,7 +141,7 @@ class FleetMap {
   tl::expected<RaysAnswer, std::string> rays(const RaysQuestion& question);
   PublishingReport report() const;
   // All of the merge-map, for a file. Nothing while no layer is held.
-  std::shared_ptr<const MergedSnapshot> merged_snapshot();
+  std::shared_ptr<MergedSnapshot> merged_snapshot();
   // A copy of the current own layer, with its pose. Nothing before the first scan.
   std::optional<EncodedLayer> encoded_layer() const;
   static EncodedLayer encoded(const Replica& layer);

@@ -63,6 +63,7 @@ class FleetMesh {
   // The newest layer of the node of this name that is copied here; null if there is none.
   const Replica* newest_copy_of(const std::string& name) const;
   std::string name_of(MemberId member) const;
+  bool knows_name_of(MemberId member) const { return nodes_.find(member) != nullptr; }
   FleetDesk& desk() { return desk_; }
   // Whether it meets others at all.
   bool is_on() const { return runner_.has_value(); }

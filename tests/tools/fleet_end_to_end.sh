@@ -129,7 +129,10 @@ maps_are_shared() { # after all three are up; robot-2 and the base do not hear e
   grep -Eq '^robot-1 +robot +(lo|radio0) .*digest equal' "$work/base.out" ||
     fail "$(cat "$work/base.out")"
   ctl base map save "$work/all.ply" --of merge || fail "$(cat "$work/base.err")"
-  grep -aq 'comment source 2' "$work/all.ply" || fail "the merged cloud is not of two robots"
+  for source in 1 2; do
+    grep -Eaq "comment source $source: .* robot-[12]\$" "$work/all.ply" ||
+      fail "the merged cloud is not of two robots"
+  done
 }
 
 case_a_base_has_what_robots_map_that_it_never_hears() {

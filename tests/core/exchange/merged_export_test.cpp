@@ -98,12 +98,13 @@ TEST_CASE("PCL reads whose word each voxel of a saved merge-map is, and its colo
 TEST_CASE("the headers of merged clouds tell which number is which layer") {
   const TemporaryFolder folder;
   MergedRooms rooms;
-  const MergedSnapshot snapshot = snapshot_of(rooms.map(), kOrigin_m);
+  MergedSnapshot snapshot = snapshot_of(rooms.map(), kOrigin_m);
+  snapshot.name_others([](const LayerId& layer) { return layer.origin == 7 ? "robot-2" : ""; });
   REQUIRE(save_merged_map(snapshot, folder / "a.ply"));
   CHECK(bytes_of(folder / "a.ply")
             .starts_with("ply\nformat binary_little_endian 1.0\n"
                          "comment source 0: this robot\n"
-                         "comment source 1: robot 7 layer 2 incarnation 00000000000000cd\n"
+                         "comment source 1: robot 7 layer 2 incarnation 00000000000000cd robot-2\n"
                          "comment source 2: robot 9 layer 1 incarnation 00000000000000ab\n"
                          "element vertex " +
                          std::to_string(snapshot.counts().occupied) +
