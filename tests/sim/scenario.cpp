@@ -204,8 +204,9 @@ double Scenario::queued_bytes() {
   double most = 0.0;
   for (std::size_t k = 0; k < simulation_.networks(); ++k) {
     double all = 0.0;
-    for (StationIndex i = 0; i < simulation_.nodes(); ++i) {
-      const auto bytes = static_cast<double>(simulation_.network(k).queued_bytes(i));
+    for (std::size_t i = 0; i < simulation_.nodes(); ++i) {
+      const auto station = static_cast<StationIndex>(i);
+      const auto bytes = static_cast<double>(simulation_.network(k).queued_bytes(station));
       all = shared_ ? all + bytes : std::max(all, bytes);
     }
     most = std::max(most, all);
