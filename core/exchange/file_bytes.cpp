@@ -23,8 +23,8 @@ tl::expected<std::string, std::string> read_file_bytes(const std::filesystem::pa
     std::ifstream stream(file, std::ios::binary);
     if (!stream) return file_failure(file, "cannot be opened for reading");
     stream.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::uint64_t>(stream.gcount()) != size)
-      return file_failure(file, "read failed");
+    const bool whole = static_cast<std::uint64_t>(stream.gcount()) == size;
+    if (!whole) return file_failure(file, "read failed");
     return bytes;
   } catch (const std::bad_alloc&) {
     return file_failure(file, "not enough memory for its " + std::to_string(size) + " bytes");

@@ -31,8 +31,8 @@ tl::expected<SaveReport, std::string> save_map(const MapSnapshot& map,
                                                PictureColours colours = PictureColours::kHeight);
 
 // Likewise the merge-map. Clouds also tell whose word each voxel is: `source`, 0 for this robot and
-// from 1 on for the layers of others, which comments in the header
-// name, their nodes too, and `rgb` by source.
+// from 1 on for the layers of others, which comments in the header name with their nodes, and `rgb`
+// by source.
 tl::expected<SaveReport, std::string> save_merged_map(
     const MergedSnapshot& map, const std::filesystem::path& file,
     PictureColours colours = PictureColours::kSource);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "daemon/control/request.hpp"
@@ -9,6 +11,8 @@
 namespace warren {
 
 // What several requests have in them.
+
+inline constexpr std::size_t kNodeNameBytesMax = 32;
 
 using Doubles = google::protobuf::RepeatedField<double>;
 

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/control/fleet_decoder.hpp"
 
-#include <cmath>
 #include <utility>
 
-#include "core/layer/layer_pose.hpp"
+#include "daemon/control/decoded_fields.hpp"
 #include "daemon/control/message_key.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
 namespace {
 
-constexpr std::size_t kNodeNameBytesMax = 32;
 constexpr std::size_t kMessageBytesMax = 200'000;
 
 using Decoded = tl::expected<ControlRequest, std::string>;
@@ -65,10 +63,8 @@ Decoded fleet_order(const control::FleetOrderRequest& request) {
     return fault("fleet_order needs a node, or to retract or restore a layer");
   }
   order.shift = {{request.x_m(), request.y_m(), request.z_m()}, request.yaw_rad()};
-  const bool is_sane = order.shift.shift_fleet_m.allFinite() &&
-                       order.shift.shift_fleet_m.cwiseAbs().maxCoeff() <= LayerPose::kReach_m &&
-                       std::abs(order.shift.yaw_rad) <= LayerShift::kYawMost_rad;
-  if (!is_sane) return fault("fleet_order needs up to 1e8 m each way and 1000 rad");
+  if (!order.shift.is_within_reach())
+    return fault("fleet_order needs up to 1e8 m each way and 1000 rad");
   return order;
 }
 

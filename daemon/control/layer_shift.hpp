@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Geometry>
+
+#include "core/layer/layer_pose.hpp"
 
 namespace warren {
 
@@ -12,6 +16,13 @@ struct LayerShift {
 
   Eigen::Vector3d shift_fleet_m = Eigen::Vector3d::Zero();
   double yaw_rad = 0.0;
+
+  // Finite, and no further than any layer may lie.
+  bool is_within_reach() const {
+    return shift_fleet_m.allFinite() &&
+           shift_fleet_m.cwiseAbs().maxCoeff() <= LayerPose::kReach_m &&
+           std::abs(yaw_rad) <= kYawMost_rad;
+  }
 };
 
 inline Eigen::Isometry3d shifted(const Eigen::Isometry3d& T_fleet_layer, const LayerShift& shift) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/layer/layer_pose.hpp"
 #include "daemon/control/decoded_fields.hpp"
 #include "daemon/control/fleet_decoder.hpp"
 #include "daemon/control/planner_request.hpp"
@@ -14,7 +13,6 @@ namespace warren {
 namespace {
 
 constexpr std::uint32_t kVoxelDepth = 16;
-constexpr std::size_t kMaxNodeNameBytes = 32;
 constexpr std::size_t kMaxPathBytes = 4095;  // PATH_MAX less the terminating zero
 
 // What is wrong with the path that this request names; nothing if nothing is.
@@ -47,7 +45,7 @@ tl::expected<ControlRequest, std::string> save_order(const control::MapSaveReque
   if (!request.of().empty() && source == MapSource::kMerge) {
     return tl::unexpected(std::string("map_save.of is of source SELF alone"));
   }
-  if (request.of().size() > kMaxNodeNameBytes) {
+  if (request.of().size() > kNodeNameBytesMax) {
     return tl::unexpected(std::string("map_save.of is too long"));
   }
   if (request.colours() == control::ROBOT && source == MapSource::kSelf) {
@@ -140,10 +138,7 @@ tl::expected<ControlRequest, std::string> move_order(const control::MapMoveReque
   if (!request.has_layer()) return tl::unexpected(std::string("map_move.layer is needed"));
   const MoveOrder order{id_of(request.layer()),
                         {{request.x_m(), request.y_m(), request.z_m()}, request.yaw_rad()}};
-  const bool is_sane = order.shift.shift_fleet_m.allFinite() &&
-                       order.shift.shift_fleet_m.cwiseAbs().maxCoeff() <= LayerPose::kReach_m &&
-                       std::abs(order.shift.yaw_rad) <= LayerShift::kYawMost_rad;
-  if (!is_sane) {
+  if (!order.shift.is_within_reach()) {
     return tl::unexpected(std::string("map_move needs up to 1e8 m each way and 1000 rad"));
   }
   return order;

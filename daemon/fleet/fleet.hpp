@@ -85,12 +85,12 @@ class Fleet {
   Mapper& mapper_;
   asio::steady_timer timer_;
   FleetConfig config_;
-  bool finishing_ = false;
   std::uint64_t ticks_late_ = 0;
-  std::atomic<bool> tick_under_way_{false};
   std::atomic<std::size_t> questions_{0};
-  std::atomic<bool> beat_requested_{false};
   std::atomic<std::uint64_t> beats_{0};
+  std::atomic<bool> tick_under_way_{false};
+  std::atomic<bool> beat_requested_{false};
+  bool finishing_ = false;
 
   asio::io_context fleet_io_{1};
   asio::executor_work_guard<asio::io_context::executor_type> running_;

@@ -104,7 +104,7 @@ void note_lags(Fleet& fleet, std::vector<double>& lags) {
                               : nullptr;
       const auto* const own = std::as_const(*writer).book().find(layer->id);
       const auto since = own->times.since(layer->replica().holdings().lowest({}));
-      lags.push_back(since ? mesh::sim::in_seconds(fleet.now() - *since) : 0.0);
+      lags.push_back(since ? mesh::in_seconds(fleet.now() - *since) : 0.0);
     }
   }
 }
@@ -140,7 +140,7 @@ CellUse measure(const Cell& cell) {
            static_cast<double>(after.air_bytes - before.air_bytes);
   };
   const auto air = static_cast<double>(after.air_bytes - before.air_bytes);
-  const double seconds = mesh::sim::in_seconds(cell.time);
+  const double seconds = mesh::in_seconds(cell.time);
   CellUse use;
   use.airtime_share = air * 8.0 / cell.rate_bit_s / seconds;
   use.bytes_per_voxel =

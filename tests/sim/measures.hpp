@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "tests/sim/simulation.hpp"
+#include "transport/flow/seconds.hpp"
 
 namespace warren::mesh::sim {
-
-inline double in_seconds(Duration time) { return std::chrono::duration<double>(time).count(); }
 
 // One direction of a radio.
 struct RadioLink {

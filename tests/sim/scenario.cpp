@@ -54,10 +54,10 @@ Simulation::Config Scenario::config(std::uint64_t seed, Planted planted) {
   constexpr std::array kRates{50e3, 200e3, 1e6, 1e6, 4e6};
   rate_bit_s_ = kRates[random_.below(kRates.size())];
   loss_ = random_.chance(0.3) ? 0.0 : random_.uniform(0.0, 0.25);
-  delay_ = from_s(random_.uniform(0.001, 0.15));
+  delay_ = from_seconds(random_.uniform(0.001, 0.15));
   shared_ = random_.chance(0.4);
   small_ = random_.chance(0.1);
-  trouble_ = from_s(random_.uniform(6.0, 16.0));
+  trouble_ = from_seconds(random_.uniform(6.0, 16.0));
 
   Simulation::Config config;
   config.seed = seed;
@@ -68,7 +68,7 @@ Simulation::Config Scenario::config(std::uint64_t seed, Planted planted) {
   config.seeds_instead_of_group = seeds_;
   for (LinkModelConfig& network : config.networks) {
     network.shared_airtime = shared_;
-    network.queue.time = from_s(random_.uniform(0.05, 0.8));
+    network.queue.time = from_seconds(random_.uniform(0.05, 0.8));
     network.queue.packets = 5 + random_.below(200);
     network.link = impaired();
   }
@@ -90,7 +90,7 @@ LinkConfig Scenario::healed() const {
 
 LinkConfig Scenario::impaired() {
   LinkConfig link = healed();
-  if (random_.chance(0.5)) link.jitter = from_s(random_.uniform(0.0, 0.02));
+  if (random_.chance(0.5)) link.jitter = from_seconds(random_.uniform(0.0, 0.02));
   link.jitter_reorders = random_.chance(0.3);
   if (random_.chance(0.3)) link.loss = random_.uniform(0.0, 0.5);
   if (random_.chance(0.3)) link.burst_loss = BurstLoss{random_.uniform(0.02, 0.3), 8.0};
@@ -98,7 +98,7 @@ LinkConfig Scenario::impaired() {
   if (random_.chance(0.3)) link.corrupt = random_.uniform(0.0, 0.05);
   if (random_.chance(0.3)) {
     link.reorder = random_.uniform(0.0, 0.1);
-    link.reorder_by = from_s(random_.uniform(0.0, 0.05));
+    link.reorder_by = from_seconds(random_.uniform(0.0, 0.05));
   }
   return link;
 }
@@ -116,7 +116,9 @@ void Scenario::set_all(const LinkConfig& link) {
 
 void Scenario::plan_load() {
   double left = rate_bit_s_ / 8.0 * kLoadSeconds * random_.uniform(0.2, 1.0);
-  const auto moment = [&] { return MeshTime(from_s(random_.uniform(0.0, s(trouble_)))); };
+  const auto moment = [&] {
+    return MeshTime(from_seconds(random_.uniform(0.0, in_seconds(trouble_))));
+  };
   const auto nodes = static_cast<std::uint32_t>(simulation_.nodes());
   while (left > 0.0) {
     const std::size_t from = random_.below(nodes);
@@ -148,8 +150,8 @@ void Scenario::plan_load() {
 void Scenario::plan_restart(MeshTime when) {
   const std::size_t node = random_.below(static_cast<std::uint32_t>(simulation_.nodes()));
   const bool lost = random_.chance(0.2);
-  const MeshTime again = when + from_s(random_.uniform(0.0, 3.0));
-  story_ << "; " << s(when.time_since_epoch()) << " s: node " << node << " restarts"
+  const MeshTime again = when + from_seconds(random_.uniform(0.0, 3.0));
+  story_ << "; " << in_seconds(when.time_since_epoch()) << " s: node " << node << " restarts"
          << (lost ? " without its store" : "");
   simulation_.at(when, [=, this] {
     if (!simulation_.node(node).endpoint) return;
@@ -164,11 +166,11 @@ void Scenario::plan_restart(MeshTime when) {
 void Scenario::plan_troubles() {
   const auto nodes = static_cast<std::uint32_t>(simulation_.nodes());
   for (std::uint32_t i = random_.below(5); i > 0; --i) {
-    const MeshTime when(from_s(random_.uniform(0.5, s(trouble_))));
+    const MeshTime when(from_seconds(random_.uniform(0.5, in_seconds(trouble_))));
     const std::size_t node = random_.below(nodes);
     const auto other = static_cast<StationIndex>((node + 1 + random_.below(nodes - 1)) % nodes);
     const std::size_t network = random_.below(static_cast<std::uint32_t>(simulation_.networks()));
-    const Duration length = from_s(random_.uniform(0.2, 12.0));
+    const Duration length = from_seconds(random_.uniform(0.2, 12.0));
     std::uint32_t kind = random_.below(5);
     // Two that are known by old addresses only cannot find each other.
     if (kind == 1 && seeds_) kind = 4;
@@ -235,10 +237,10 @@ Duration Scenario::theoretical() {
   const double sent = bytes / payload * (1.0 / (1.0 - loss_) + acknowledged) + queued_bytes();
   // What was known of the rate is of the time of troubles. Nobody finds it faster than by doubling
   // in each round trip what the first eight packets of 400 bytes were.
-  const double trip_s = 2.0 * s(delay_);
+  const double trip_s = 2.0 * in_seconds(delay_);
   const double doublings =
       std::log2(std::max(std::min(bytes, rate_bit_s_ / 8.0 * trip_s) / 3200.0, 1.0));
-  return from_s(sent * 8.0 / rate + doublings * trip_s) + 10 * delay_;
+  return from_seconds(sent * 8.0 / rate + doublings * trip_s) + 10 * delay_;
 }
 
 void Scenario::heal() {
@@ -253,7 +255,7 @@ void Scenario::heal() {
 
 ScenarioOutcome Scenario::run() {
   for (std::size_t i = 0; i < simulation_.nodes(); ++i) {
-    simulation_.at(MeshTime(from_s(random_.uniform(0.0, 2.0))), [=, this] {
+    simulation_.at(MeshTime(from_seconds(random_.uniform(0.0, 2.0))), [=, this] {
       if (!simulation_.node(i).endpoint) simulation_.start(i);
     });
   }
@@ -273,20 +275,20 @@ ScenarioOutcome Scenario::run() {
   };
   if (!simulation_.run_until(healed_at + limit, finished)) {
     std::ostringstream what;
-    what << "not done " << s(limit)
+    what << "not done " << in_seconds(limit)
          << " s after all was well: " << simulation_.ledger().outstanding() << " parcels with "
          << simulation_.ledger().outstanding_bytes() << " bytes";
     for (std::size_t i = 0; i < simulation_.nodes(); ++i) what << ", map " << open_bytes(i);
     const bool later = simulation_.run_until(healed_at + 5 * limit, finished);
     what << (later ? "; done later, after " : "; never done, not after ")
-         << s(simulation_.now() - healed_at) << " s";
+         << in_seconds(simulation_.now() - healed_at) << " s";
     simulation_.ledger().fail(healed_at + limit, what.str());
   }
   const Duration late = std::max(simulation_.now() - healed_at - target, Duration{});
   // Whatever comes twice comes soon.
   simulation_.run_until(simulation_.now() + seconds(3));
-  return {simulation_.ledger().failures(), story_.str(), s(simulation_.now().time_since_epoch()),
-          s(late)};
+  return {simulation_.ledger().failures(), story_.str(),
+          in_seconds(simulation_.now().time_since_epoch()), in_seconds(late)};
 }
 
 }  // namespace

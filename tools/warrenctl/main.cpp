@@ -180,8 +180,8 @@ struct Executor {
   }
   int operator()(const FleetCommand& command) const { return run(command, socket); }
   int operator()(const KeyNewCommand& command) const {
-    if (const auto made = make_key_file(command.file); !made)
-      return failure(made.error(), kExitFailure);
+    const auto made = make_key_file(command.file);
+    if (!made) return failure(made.error(), kExitFailure);
     std::cout << "wrote " << command.file.string()
               << ": copy it to every member of the fleet, for the daemon's user alone\n";
     return 0;

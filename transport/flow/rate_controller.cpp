@@ -109,7 +109,7 @@ void RateController::follow_arrivals(MeshTime now) {
   const auto seen = arrivals_.since(std::max(now - span, queued_since_), 8.0, queued_since_);
   if (!seen || seen->busy < kBusy) return;
   const double certain = std::min(1.0, kCertain / uncertainty(*seen));
-  const double share = std::clamp(s(now - last_followed_) / 0.1, 0.0, 1.0) * certain * certain;
+  const double share = std::min(in_seconds(now - last_followed_) / 0.1, 1.0) * certain * certain;
   set_rate(rate_ + (seen->arrival_rate - rate_) * share);
   confirmed_rate_ = rate_;
   last_followed_ = now;
@@ -145,7 +145,7 @@ void RateController::watch_round(MeshTime now, const AckReport& report, std::uin
     return;
   }
   const double excess = gain_ > 1.0 ? gain_ - 1.0 : kGainFirst - 1.0;
-  const Duration certain = from_s(kCertainty * s(queue_.jitter()) / excess);
+  const Duration certain = from_seconds(kCertainty * in_seconds(queue_.jitter()) / excess);
   const Duration span =
       std::max({round_trip() / 4, std::min(certain, kRoundMax), Duration{milliseconds{10}}});
   if (now - round_.from->time < span) return;
@@ -177,10 +177,10 @@ void RateController::wait_at_plateau(MeshTime now) {
 // At twice the link's rate a short buffer drops every second packet: none is left that arrived
 // next to its neighbour.
 void RateController::give_up_round(MeshTime now, std::uint64_t next) {
-  const double seconds = s(now - round_.from->time);
+  const double seconds = in_seconds(now - round_.from->time);
   const double delivered = arrivals_.mark().acked_bytes - round_.from->acked_bytes;
   const double enough = kGiveUpPackets * static_cast<double>(packet_bytes());
-  if (delivered <= enough || seconds < s(round_trip())) return;
+  if (delivered <= enough || seconds < in_seconds(round_trip())) return;
   set_rate(std::clamp(1.1 * delivered / seconds, 0.7 * rate_, rate_));
   wait_at_plateau(now);
   begin_round(next);
@@ -254,8 +254,8 @@ void RateController::set_rate(double rate) {
 
 // Less for fast flows: two that share a queue find the same rate.
 Duration RateController::target() const {
-  const double slope = s(kTargetSlope) * std::sqrt(kTargetRate / rate_);
-  return std::min(kTargetFloor + from_s(slope), Duration{kTargetMax});
+  const double slope = in_seconds(kTargetSlope) * std::sqrt(kTargetRate / rate_);
+  return std::min(kTargetFloor + from_seconds(slope), Duration{kTargetMax});
 }
 
 bool RateController::queue_shows() const {
@@ -266,14 +266,15 @@ bool RateController::queue_shows() const {
 // wrong by that of its first and its last.
 double RateController::uncertainty(const ArrivalRate::Measure& seen) const {
   const double runs = 1.0 + seen.pairs * loss_;
-  return std::max(1.25 * s(queue_.jitter()) * std::sqrt(runs) / std::max(seen.seconds, 1e-3), 1e-6);
+  const double wrong_s = 1.25 * in_seconds(queue_.jitter()) * std::sqrt(runs);
+  return std::max(wrong_s / std::max(seen.seconds, 1e-3), 1e-6);
 }
 
 double RateController::pace() const {
   double pace = rate_ * gain_;
   if (!starting_ && gain_ <= 1.0) {
-    const double reaction = std::max(0.3, 2.5 * s(round_trip() + 2 * queue_.interval()));
-    const double room = s(target() - queue_.standing()) / reaction;
+    const double reaction = std::max(0.3, 2.5 * in_seconds(round_trip() + 2 * queue_.interval()));
+    const double room = in_seconds(target() - queue_.standing()) / reaction;
     pace = rate_ * (1.0 + std::clamp(room, -kLowerMax, kRaiseMax));
   }
   if (config_.ceiling_bit_s) pace = std::min(pace, *config_.ceiling_bit_s / 8.0);
@@ -281,11 +282,10 @@ double RateController::pace() const {
 }
 
 std::size_t RateController::in_flight_max() const {
-  const auto packets = kInFlightPackets * packet_bytes();
   if (!known_) return kFirstPackets * packet_bytes();
-  double bytes = std::max(pace(), rate_) * s(round_trip() + kInFlightQueue);
+  double bytes = std::max(pace(), rate_) * in_seconds(round_trip() + kInFlightQueue);
   if (starting_) bytes = std::min(bytes, kStartGrowth * start_bytes_);
-  return packets + static_cast<std::size_t>(bytes);
+  return kInFlightPackets * packet_bytes() + static_cast<std::size_t>(bytes);
 }
 
 // Headers are a share of each packet, its airtime is waited for by all behind it: the sum of

@@ -18,7 +18,6 @@ constexpr Duration kAckIntervalMax = milliseconds{160};  // between two, on the 
 constexpr Duration kRest = milliseconds{500};            // after which
 constexpr int kQuickPackets = 16;                        // are acknowledged at once
 constexpr Duration kRepeatDelay = milliseconds{40};
-constexpr Duration kPairGapMax = std::chrono::seconds{1};
 constexpr int kTellTimes = 6;                 // a range, since its last change
 constexpr int kOlderRanges = 5;               // besides, as many acknowledgements may be lost
 constexpr std::uint32_t kWholeAckPeriod = 8;  // between acknowledgements with all ranges
@@ -71,7 +70,7 @@ const ReceivedPackets::Arrival* ReceivedPackets::arrival(std::uint64_t number) c
 void ReceivedPackets::add_pairs(const Arrival& now) {
   const auto add = [this](const Arrival& first, const Arrival& second) {
     const Duration gap = second.time - first.time;
-    if (gap > kPairGapMax || gap < -kPairGapMax) return;
+    if (gap > AckFrame::kPairGapMax || gap < -AckFrame::kPairGapMax) return;
     pair_bytes_ += static_cast<std::uint32_t>(second.ip_bytes);
     pair_us_ += static_cast<std::uint32_t>(gap.count());
   };

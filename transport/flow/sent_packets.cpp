@@ -27,7 +27,6 @@ constexpr Duration kHeldTooLong = milliseconds{500};  // such a delay is no good
 constexpr Duration kRttMax = seconds{5};
 constexpr Duration kTripMax = seconds{8};  // with its variation
 constexpr Duration kPause = milliseconds{400};
-constexpr Duration kPairSpacingMax = seconds{1};  // as the receiver's
 constexpr double kSentLossGain = 1.0 / 64.0;
 
 void move_all(std::vector<Ticket>& from, std::vector<Ticket>& to) {
@@ -122,7 +121,7 @@ void SentPackets::add_pairs(std::uint64_t number) {
     if (first == nullptr || second == nullptr) return;
     if (first->fate != Fate::kAcked || second->fate != Fate::kAcked) return;
     const Duration spacing = second->packet.sent - first->packet.sent;
-    if (spacing > kPairSpacingMax || (spacing > kPause && !second->packet.busy)) {
+    if (spacing > AckFrame::kPairGapMax || (spacing > kPause && !second->packet.busy)) {
       ++pairs_.pauses;
       return;
     }

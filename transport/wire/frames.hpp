@@ -39,6 +39,7 @@ struct AckFrame {
   // Sums over all pairs of consecutive numbers that both arrived so far, modulo 2^32: the IP bytes
   // of the second, and the microseconds from the first's arrival to the second's (signed: they may
   // come in the other order). What the link carries while it has no rest, whatever is lost beside.
+  static constexpr Duration kPairGapMax = std::chrono::seconds{1};  // further apart are none
   std::uint32_t pair_bytes = 0;
   std::uint32_t pair_us = 0;
   friend bool operator==(const AckFrame&, const AckFrame&) = default;

@@ -121,6 +121,11 @@ TEST_CASE("the headers of merged clouds tell which number is which layer") {
         std::string::npos);
 }
 
+TEST_CASE("a picture names the node whose word a voxel is, or its number") {
+  CHECK(short_name_of({7, 2, 0xcd}, "robot-2") == "robot-2 layer 2");
+  CHECK(short_name_of({7, 2, 0xcd}, "") == "robot 7 layer 2");
+}
+
 TEST_CASE("the cloud of a robot's own map has neither source nor colour") {
   const TemporaryFolder folder;
   MapSnapshot map{LayerOrigin{}, SelfMap(SelfMapConfig{})};
