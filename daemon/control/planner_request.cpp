@@ -15,6 +15,12 @@ bool lies_within(double value, double least, double most) {
   return value >= least && value <= most;
 }
 
+// Of unit length, also where a square would be too large or too small for a double; not finite
+// where there is no direction.
+Eigen::Vector3d unit_along(const Eigen::Vector3d& direction) {
+  return (direction / direction.cwiseAbs().maxCoeff()).normalized();
+}
+
 }  // namespace
 
 tl::expected<ControlRequest, std::string> blocks_question(const control::BlocksRequest& request) {
@@ -72,9 +78,8 @@ tl::expected<ControlRequest, std::string> rays_question(const control::RaysReque
       source_of(request.source()), {}, request.max_range_m(), request.through_unknown()};
   for (int first = 0; first < numbers; first += 3) {
     const MapRay ray{vector_at(request.origins_map_m(), origins == 3 ? 0 : first),
-                     vector_at(request.directions_map(), first).stableNormalized()};
-    const bool has_direction = ray.direction_map.allFinite() && ray.direction_map.norm() > 0.5;
-    if (!ray.origin_map.allFinite() || !has_direction) {
+                     unit_along(vector_at(request.directions_map(), first))};
+    if (!ray.origin_map.allFinite() || !ray.direction_map.allFinite()) {
       return refused("rays.origins_map_m must be finite, directions_map finite and not zero");
     }
     question.rays.push_back(ray);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -60,6 +61,24 @@ inline void take_scans(const RunningDaemon& daemon, std::uint64_t first, std::ui
     REQUIRE(client.write(scan_frame(i, points)));
     REQUIRE(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
   }
+}
+
+// What the daemon tells when so many scans are in its map and all they changed is published.
+inline control::Status settled(const RunningDaemon& daemon, std::uint64_t scans) {
+  control::Status status;
+  std::optional<std::uint64_t> ticks_by_then;
+  for (int i = 0; i < 600; ++i) {
+    status = daemon.status();
+    const control::Publishing& now = status.publishing();
+    if (!ticks_by_then && status.map().scans() >= scans) ticks_by_then = now.ticks();
+    // The first tick after may have begun before.
+    const bool done = ticks_by_then && now.ticks() >= *ticks_by_then + 2 && now.revision() > 0 &&
+                      now.blocks_held_back() == 0;
+    if (done) return status;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  FAIL("nothing settled: ", status.DebugString());
+  return status;
 }
 
 inline control::FleetStatus fleet_status(const RunningDaemon& daemon) {

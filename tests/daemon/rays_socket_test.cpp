@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays on the control socket.
 #include <cmath>
+#include <span>
+#include <string>
+#include <variant>
 
 #include <doctest/doctest.h>
 
+#include "daemon/control/request.hpp"
 #include "tests/daemon/mapped_daemon.hpp"
 
 namespace warren {
@@ -46,6 +50,22 @@ TEST_CASE("rays tell what they meet first, and those that make no sense are refu
   CHECK(error().find("3 numbers a ray") != std::string::npos);
   rays.mutable_directions_map()->Resize(3 * 1025, 1.0);
   CHECK(error().find("1024 rays") != std::string::npos);
+}
+
+TEST_CASE("a ray's direction becomes one of unit length, whatever its numbers") {
+  control::Request request;
+  auto& rays = *request.mutable_rays();
+  rays.set_max_range_m(10.0);
+  rays.mutable_origins_map_m()->Resize(3, 0.0);
+  for (const double length : {5e-324, 1e-200, 1.0, 1e200, 1.7e308}) {
+    rays.mutable_directions_map()->Clear();
+    for (const double share : {1.0, -1.0, 0.0}) rays.add_directions_map(share * length);
+    const std::string bytes = request.SerializeAsString();
+    const auto decoded = decode_control_request(std::as_bytes(std::span(bytes)));
+    REQUIRE(decoded.has_value());
+    const Eigen::Vector3d direction = std::get<RaysQuestion>(*decoded).rays.at(0).direction_map;
+    CHECK(direction.isApprox(Eigen::Vector3d(std::sqrt(0.5), -std::sqrt(0.5), 0.0), 1e-12));
+  }
 }
 
 }  // namespace warren

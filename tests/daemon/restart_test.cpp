@@ -6,6 +6,8 @@
 #include <asio/io_context.hpp>
 #include <doctest/doctest.h>
 
+#include "core/exchange/layer_file.hpp"
+#include "core/layer/hash_text.hpp"
 #include "tests/daemon/loopback_fleet.hpp"
 
 namespace warren {
@@ -13,20 +15,6 @@ namespace {
 
 bool same_layer(const control::LayerId& a, const control::LayerId& b) {
   return a.SerializeAsString() == b.SerializeAsString();
-}
-
-// What the robot has published, when nothing is held back.
-control::Status settled(const RunningDaemon& daemon) {
-  control::Status status;
-  for (int i = 0; i < 600; ++i) {
-    status = daemon.status();
-    const bool done = status.publishing().revision() > 0 && status.publishing().ticks() > 0 &&
-                      status.publishing().blocks_held_back() == 0;
-    if (done) return status;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  FAIL("nothing settled: ", status.DebugString());
-  return status;
 }
 
 Config quick(const Loopback& fleet) {
@@ -45,10 +33,10 @@ TEST_CASE("a robot that starts again goes on with its map and its layer") {
   {
     RunningDaemon robot(quick(fleet));
     take_scans(robot, 1, 3);
-    before = settled(robot);
+    before = settled(robot, 3);
   }
   RunningDaemon robot(quick(fleet));
-  const control::Status after = settled(robot);
+  const control::Status after = settled(robot, 3);
   CHECK(after.map().scans() == 3);
   CHECK(after.map().voxels_free() == before.map().voxels_free());
   CHECK(after.map().voxels_occupied() == before.map().voxels_occupied());
@@ -70,8 +58,8 @@ TEST_CASE("a base that starts again has the maps of robots that are gone, and th
     RunningDaemon base(base_config);
     RunningDaemon robot(fleet.config("robot-1", 1, {}));
     take_scans(robot, 1, 2);
+    digest = settled(robot, 2).publishing().digest();
     wait_for(base, has_all_of("robot-1"));
-    digest = robot.status().publishing().digest();
   }
   RunningDaemon base(base_config);
   const control::FleetStatus status = wait_for(base, has_all_of("robot-1"));
@@ -79,7 +67,10 @@ TEST_CASE("a base that starts again has the maps of robots that are gone, and th
   control::Request save;
   save.mutable_map_save()->set_path(fleet.file("copy.layer").string());
   save.mutable_map_save()->set_of("robot-1");
-  CHECK(TestClient(base.control_socket()).ask(save).has_map_saved());
+  REQUIRE(TestClient(base.control_socket()).ask(save).has_map_saved());
+  const auto copy = read_layer(fleet.file("copy.layer"));
+  REQUIRE(copy.has_value());
+  CHECK(hex_of(copy->digest().root()) == digest);
 }
 
 TEST_CASE("after a restart a robot's layer goes on at its neighbours, from where it was") {
@@ -93,7 +84,7 @@ TEST_CASE("after a restart a robot's layer goes on at its neighbours, from where
     wait_for(base, has_all_of("robot-1"));
   }
   RunningDaemon robot(config);
-  const std::uint32_t before = settled(robot).publishing().revision();
+  const std::uint32_t before = settled(robot, 2).publishing().revision();
   take_scans(robot, 3, 3);
   wait_for(base, [&](const control::FleetStatus& status) {
     return has_all_of("robot-1")(status) &&
@@ -108,13 +99,13 @@ TEST_CASE("with another resolution a new layer is begun, and the old one is kept
   {
     RunningDaemon robot(config);
     take_scans(robot, 1, 2);
-    settled(robot);
+    settled(robot, 2);
   }
   config.map.resolution_m = 0.2;
   RunningDaemon robot(config);
   CHECK(robot.status().map().scans() == 0);
   take_scans(robot, 1, 2);
-  CHECK(settled(robot).publishing().layer().number() == 1);
+  CHECK(settled(robot, 2).publishing().layer().number() == 1);
   RunningDaemon base(fleet.config("base", 0, {1}));
   wait_for(base, [](const control::FleetStatus& status) {
     const auto* const node = node_named(status, "robot-1");
@@ -129,7 +120,7 @@ TEST_CASE("a damaged store is moved aside, and the node begins anew") {
   {
     RunningDaemon robot(quick(fleet));
     take_scans(robot, 1, 1);
-    settled(robot);
+    settled(robot, 1);
   }
   std::fstream file(fleet.file("robot.db"), std::ios::in | std::ios::out | std::ios::binary);
   for (int page = 0; page < 3; ++page) {
@@ -141,7 +132,7 @@ TEST_CASE("a damaged store is moved aside, and the node begins anew") {
   CHECK(robot.status().map().scans() == 0);
   CHECK(std::filesystem::exists(fleet.file("robot.db.corrupt-1")));
   take_scans(robot, 1, 1);
-  CHECK(settled(robot).map().scans() == 1);
+  CHECK(settled(robot, 1).map().scans() == 1);
 }
 
 TEST_CASE("two daemons cannot have one store, and a folder that is missing is named") {
@@ -169,12 +160,12 @@ TEST_CASE("without a store a restart begins anew, under another layer") {
   {
     RunningDaemon robot(config);
     take_scans(robot, 1, 1);
-    before = settled(robot).publishing().layer();
+    before = settled(robot, 1).publishing().layer();
     CHECK_FALSE(robot.status().has_store());
   }
   RunningDaemon robot(config);
   take_scans(robot, 1, 1);
-  CHECK_FALSE(same_layer(settled(robot).publishing().layer(), before));
+  CHECK_FALSE(same_layer(settled(robot, 1).publishing().layer(), before));
   CHECK_FALSE(std::filesystem::exists(config.store.file));
 }
 

@@ -175,7 +175,7 @@ TEST_CASE("whatever comes, no published voxel is ever wrong, and after a flush a
       RC_ASSERT(origin.publisher.blocks_held_back() == (differs ? 1U : 0U));
       if (!test::chance(random, 10)) continue;
       origin.flush();
-      RC_ASSERT(origin.layer.find(kBlock)->codes == CodeBlock(origin.exact));
+      RC_ASSERT(origin.layer.codes_in_place(kBlock) == CodeBlock(origin.exact));
     }
     origin.flush();
     RC_ASSERT(origin.publisher.blocks_held_back() == 0);
