@@ -13,6 +13,11 @@ bool g_counting = false;
 std::ptrdiff_t g_live = 0;
 std::ptrdiff_t g_peak = 0;
 
+}  // namespace
+
+#ifndef WARREN_HEAP_IS_NOT_OURS
+namespace {
+
 void* allocate(std::size_t bytes) {
   void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
   if (memory == nullptr) throw std::bad_alloc();
@@ -38,6 +43,7 @@ void operator delete(void* memory) noexcept { release(memory); }
 void operator delete[](void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+#endif
 
 namespace warren {
 
