@@ -66,7 +66,7 @@ OwnLayer& FleetMap::own_layer(const LayerChanges& changes) {
               config_.rest_after_ticks);
 }
 
-void FleetMap::restore(std::vector<StoredOwnLayer> layers) {
+void FleetMap::restore(std::vector<StoredOwnLayer>&& layers) {
   for (StoredOwnLayer& layer : layers) {
     const std::uint32_t number = layer.layer.id().number;
     const Eigen::Vector3d origin_map = layer.origin.position_map(config_.resolution.metres());

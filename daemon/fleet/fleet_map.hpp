@@ -105,7 +105,7 @@ class FleetMap {
 
   // Own layers as a store had them, before anything else. The first tick must have all their
   // blocks.
-  void restore(std::vector<StoredOwnLayer> layers);
+  void restore(std::vector<StoredOwnLayer>&& layers);
   // One tick of all layers, also of those in which nothing changed.
   void tick(std::span<const LayerChanges> changes);
   // Publishes what the sender rules hold back. Nothing before the first scan.

@@ -42,7 +42,10 @@ bool Subscription::on_wish(const Wish& wish, const Replica& layer) {
     believed_ = higher_of(believed_, wish.holdings);
   }
   assume_anew();
-  if (is_new) raise_goal(layer);
+  if (is_new) {
+    goal_ = {};
+    if (layer.known_voxels() > kSmall_voxels) raise_goal(layer);
+  }
   return true;
 }
 

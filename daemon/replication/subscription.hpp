@@ -18,13 +18,16 @@ namespace warren::replication {
 //
 // Keys where the member is known to hold at least `goal` are swept: what changes there is fresh,
 // and all of them are levelled by each packet. The others are backlog: hot regions first, then in
-// order, each key once.
+// order, each key once. A layer that is small when it begins to be wanted, as after its writer's
+// first scans, is fresh as a whole: all who want it then can be told at once.
 class Subscription {
  public:
   // On its way at once: if any of them were lost, the member's holdings must still have room.
   static constexpr std::size_t kIntervalsAndPacketsMax = 60;
   // Told lost, and remembered in case that it was only late.
   static constexpr std::size_t kLateMax = 64;
+  // Some 15 full packets: a member's holdings have room whichever of them are lost.
+  static constexpr std::uint64_t kSmall_voxels = 250'000;
   // So many revisions apart, swept keys get packets of their own.
   static constexpr std::uint32_t kLevelWithin = 4;
 

@@ -224,7 +224,7 @@ std::optional<Datagram> Discovery::poll(MeshTime now) {
   }
   const InterfaceIndex interface = datagram->to.interface;
   const std::size_t ip_bytes = node_.link_bytes(*datagram);
-  node_.pacers[interface].on_sent(now, std::nullopt, ip_bytes, node_.slowest_pace(now, interface));
+  node_.pacers[interface].on_sent(now, std::nullopt, ip_bytes, node_.paces(now, interface).slowest);
   node_.count_sent(ip_bytes);
   ++node_.counts[sent_class].packets;
   node_.counts[sent_class].bytes += datagram->bytes.size() - kEnvelopeBytes;

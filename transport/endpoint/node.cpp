@@ -26,6 +26,7 @@ Node::Node(const EndpointConfig& node_config, std::shared_ptr<const KeySchedule>
       members(node_config.members_max) {
   for (const InterfaceConfig& interface : config.interfaces) {
     pacers.emplace_back(interface.ceiling_bit_s);
+    group_rates.emplace_back();
   }
 }
 
@@ -140,13 +141,16 @@ void Node::count_sent(std::size_t ip_bytes) {
   counts.ip_bytes_out += ip_bytes;
 }
 
-double Node::slowest_pace(MeshTime now, InterfaceIndex interface) const {
-  std::optional<double> slowest;
+Node::Paces Node::paces(MeshTime now, InterfaceIndex interface) const {
+  std::optional<Paces> paces;
   for (const auto& [id, peer] : members) {
     if (!peer->in_reach(now) || peer->paths.current()->interface != interface) continue;
-    slowest = std::min(slowest.value_or(peer->session->flow.pace()), peer->session->flow.pace());
+    const double pace = peer->session->flow.pace();
+    if (!paces) paces = Paces{pace, pace};
+    paces->slowest = std::min(paces->slowest, pace);
+    paces->fastest = std::max(paces->fastest, pace);
   }
-  return slowest.value_or(kUnknownPace);
+  return paces.value_or(Paces{kUnknownPace, kUnknownPace});
 }
 
 }  // namespace warren::mesh

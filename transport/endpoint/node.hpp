@@ -14,6 +14,7 @@
 #include "transport/endpoint/endpoint.hpp"
 #include "transport/endpoint/jitter.hpp"
 #include "transport/endpoint/members.hpp"
+#include "transport/flow/group_rate.hpp"
 #include "transport/flow/node_pacer.hpp"
 
 namespace warren::mesh {
@@ -53,8 +54,12 @@ struct Node {
         datagram.to.group ? config.interfaces[datagram.to.interface].group_copies : 1;
     return copies * ip_bytes(datagram.to.interface, datagram.bytes.size());
   }
-  // The slowest of those in reach there, IP bytes/s: what a packet for all takes its airtime by.
-  double slowest_pace(MeshTime now, InterfaceIndex interface) const;
+  // Of those in reach there, IP bytes/s.
+  struct Paces {
+    double slowest = 0.0;
+    double fastest = 0.0;
+  };
+  Paces paces(MeshTime now, InterfaceIndex interface) const;
 
   EndpointConfig config;
   std::shared_ptr<const KeySchedule> keys;
@@ -66,9 +71,10 @@ struct Node {
   ParcelBudget sent_budget;
   ParcelBudget received_budget;
   Members members;
-  std::vector<NodePacer> pacers;    // by interface
-  std::optional<MeshTime> started;  // the first time that something was sent, or could have been
-  bool somebody_came_up = false;    // since Endpoint looked last
+  std::vector<NodePacer> pacers;       // by interface
+  std::vector<GroupRate> group_rates;  // likewise
+  std::optional<MeshTime> started;     // the first time that something was sent, or could have been
+  bool somebody_came_up = false;       // since Endpoint looked last
   // Above all numbers used with pairs of which there is no session: none is ever used twice.
   std::uint64_t free_pair_number = 0;
   // Likewise of urgent messages to members that were forgotten: they may know us still.

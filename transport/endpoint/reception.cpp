@@ -180,6 +180,12 @@ void Reception::on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack
   peer.session->knows_us = true;
   peer.session->sizes.on_ack(now, ack, peer.paths.size());
   node_.settle(now, peer, outcome);
+  if (!peer.in_reach(now)) return;
+  const InterfaceIndex interface = peer.paths.current()->interface;
+  if (!node_.config.interfaces[interface].group_broadcast) return;
+  const Node::Paces paces = node_.paces(now, interface);
+  node_.group_rates[interface].on_acknowledged(now, peer.session->flow.quality().queue,
+                                               paces.slowest, paces.fastest);
 }
 
 void Reception::on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&& frame) {

@@ -64,6 +64,7 @@ void Transmission::wake_group(InterfaceIndex interface) {
   if (!node_.config.interfaces[interface].group_broadcast || group_awake_[interface]) return;
   group_awake_[interface] = true;
   group_alone_[interface] = false;
+  node_.group_rates[interface].want(true);
   node_.pacers[interface].want(NodePacer::kGroup, true);
   ++turns_wanted_[interface];
 }
@@ -188,6 +189,7 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
   if (!packet) {
     group_alone_[interface] = !heard;
     group_awake_[interface] = false;
+    node_.group_rates[interface].want(false);
     node_.pacers[interface].want(NodePacer::kGroup, false);
     --turns_wanted_[interface];
     return std::nullopt;
@@ -198,8 +200,8 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
       {interface, true, {}},
       seal(group_key_, {PacketType::kGroup, node_.config.boot, group_number_++}, content)};
   const std::size_t ip_bytes = node_.link_bytes(datagram);
-  node_.pacers[interface].on_sent(now, NodePacer::kGroup, ip_bytes,
-                                  node_.slowest_pace(now, interface));
+  const double pace = node_.group_rates[interface].pace(node_.paces(now, interface).slowest);
+  node_.pacers[interface].on_sent(now, NodePacer::kGroup, ip_bytes, pace);
   node_.count_sent(ip_bytes);
   ++node_.counts[SentClass::kGroup].packets;
   node_.counts[SentClass::kGroup].bytes += content.size();

@@ -36,8 +36,8 @@ class NodePacer {
   std::optional<Peer> next(MeshTime now);
 
   // Every packet of the node on this interface is told, whether it waited for its turn or not.
-  // pace: Flow::pace() of the peer, IP bytes/s; a group packet or a beacon: the slowest's.
-  // True: the interface had no rest between the packet before and this one.
+  // pace: Flow::pace() of the peer, IP bytes/s; of a group packet GroupRate's, of a beacon the
+  // slowest's. True: the interface had no rest between the packet before and this one.
   bool on_sent(MeshTime now, std::optional<Peer> peer, std::size_t ip_bytes, double pace);
 
  private:

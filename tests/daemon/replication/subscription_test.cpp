@@ -9,6 +9,9 @@ namespace {
 using test::block_with;
 using test::kLayer;
 
+constexpr BlockOrdinal kFirst = 600;
+constexpr BlockOrdinal kApart = 300;
+
 // A provider with some blocks, and a member that holds nothing at first.
 struct Pair {
   Replica provider{kLayer, kDefaultResolution};
@@ -17,11 +20,17 @@ struct Pair {
   std::uint64_t ticket = 0;
   std::uint64_t wishes = 0;
 
-  explicit Pair(std::size_t blocks) {
+  // Not a small one: with much free space before these blocks.
+  explicit Pair(std::size_t blocks, bool small = false) {
     test::Random random(blocks);
     std::vector<CodedBlock> all;
+    BlockCodes free;
+    free.known.fill(kFullCell);
+    for (BlockOrdinal block = 0; block < 500 && !small; ++block) {
+      all.push_back({block, CodeBlock(free)});
+    }
     for (std::size_t i = 0; i < blocks; ++i) {
-      all.push_back({i * 300, CodeBlock(test::random_codes(random, 30))});
+      all.push_back({kFirst + i * kApart, CodeBlock(test::random_codes(random, 30))});
     }
     test::publish(provider, all);
   }
@@ -78,7 +87,7 @@ TEST_CASE("a newcomer gets all as backlog, each key once, then ticks as fresh") 
   const std::size_t packets = pair.catch_up();
   CHECK(packets > 3);
   CHECK(pair.equal());
-  pair.touch(300, 5);
+  pair.touch(kFirst, 5);
   CHECK_FALSE(pair.next(false));
   const auto tick = pair.next(true);
   REQUIRE(tick);
@@ -86,14 +95,30 @@ TEST_CASE("a newcomer gets all as backlog, each key once, then ticks as fresh") 
   CHECK_FALSE(pair.next(true));
 }
 
+TEST_CASE(
+    "of a small layer a newcomer gets all as fresh, and later what it lacks after a silence") {
+  Pair pair(60, true);
+  pair.wish();
+  CHECK_FALSE(pair.next(false));
+  while (auto packet = pair.next(true)) {
+    pair.deliver(*packet);
+    pair.subscription.on_acknowledged(pair.ticket);
+  }
+  CHECK(pair.equal());
+  pair.touch(kFirst, 7);
+  pair.subscription.raise_goal(pair.provider);
+  CHECK_FALSE(pair.next(true));
+  CHECK(pair.next(false));
+}
+
 TEST_CASE("what is unacknowledged is in the next tick too, and what is lost goes again") {
   Pair pair(2);
   pair.wish();
   pair.catch_up();
-  pair.touch(300, 5);
+  pair.touch(kFirst, 5);
   const auto lost = pair.next(true);
   const std::uint64_t lost_ticket = pair.ticket;
-  pair.touch(300, 6);
+  pair.touch(kFirst, 6);
   const auto next = pair.next(true);
   REQUIRE(lost);
   REQUIRE(next);
@@ -141,7 +166,7 @@ TEST_CASE("acknowledgements of before a wish that tells of a loss count no more"
   Pair pair(2);
   pair.wish();
   pair.catch_up();
-  pair.touch(300, 5);
+  pair.touch(kFirst, 5);
   CHECK(pair.next(true));
   const std::uint64_t believed_lost = pair.ticket;
   pair.wish(true);
@@ -170,7 +195,7 @@ TEST_CASE("after a silence what is lacking is backlog") {
   Pair pair(5);
   pair.wish();
   pair.catch_up();
-  pair.touch(300, 7);
+  pair.touch(kFirst, 7);
   pair.subscription.raise_goal(pair.provider);
   CHECK_FALSE(pair.next(true));
   CHECK(pair.next(false));

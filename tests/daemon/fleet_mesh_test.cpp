@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a node without a radio hands to its store, and what it does when that refuses.
+#include "daemon/fleet/fleet_mesh.hpp"
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <asio/io_context.hpp>
+#include <asio/post.hpp>
+
+#include "tests/daemon/small_fleet.hpp"
+
+namespace warren {
+namespace {
+
+// Answers at once, as it is told to.
+class ScriptedStore final : public StorePort {
+ public:
+  explicit ScriptedStore(asio::io_context& io) : io_(io) {}
+  void write(StoreBatch batch, std::function<void(bool)> done) override {
+    batches.push_back(std::move(batch));
+    asio::post(io_, [done = std::move(done), stores = stores] { done(stores); });
+  }
+
+  std::vector<StoreBatch> batches;
+  bool stores = true;
+
+ private:
+  asio::io_context& io_;
+};
+
+struct Node {
+  Node() {
+    map.on_open([this](const OwnLayer& layer) { mesh.on_opened(layer); });
+    mesh.start();
+  }
+  static FleetMeshConfig config() {
+    FleetMeshConfig config;
+    config.replication.self = MemberId{7};
+    config.log_incarnation = 1;
+    return config;
+  }
+  void tick(LayerChanges changes) {
+    map.tick({&changes, 1});
+    mesh.on_ticked({});
+  }
+  // Until so many batches were written, for at most ten seconds.
+  void run_until_written(std::size_t batches) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (store.batches.size() < batches && std::chrono::steady_clock::now() < end) {
+      io.run_one_until(end);
+    }
+    REQUIRE(store.batches.size() == batches);
+  }
+  // The revision of the pose of the own layer in that batch.
+  std::optional<std::uint32_t> pose_in(std::size_t batch) const {
+    const LayerId id = map.own_layers().at(0).layer().id();
+    for (const LayerWrite& write : store.batches.at(batch).layers) {
+      if (write.head.id == id) return write.head.pose.origin().revision;
+    }
+    return std::nullopt;
+  }
+
+  asio::io_context io;
+  ScriptedStore store{io};
+  FleetMap map = test::fleet_map();
+  FleetMesh mesh{io, config(), map, store};
+};
+
+}  // namespace
+
+TEST_CASE("a pose is stored once, and again where the store refused it") {
+  Node node;
+  LayerChanges changes = test::changes_of({test::floor_block({0, 0, 0}, 1)});
+  node.tick(changes);
+  node.run_until_written(1);
+  REQUIRE(node.pose_in(0).has_value());
+  changes.blocks.clear();
+  changes.T_fleet_map.translation = {0.0, 0.8, 0.0};
+  node.store.stores = false;
+  node.tick(changes);
+  node.run_until_written(2);
+  const auto refused = node.pose_in(1);
+  REQUIRE(refused.has_value());
+  CHECK(*refused == *node.pose_in(0) + 1);
+  node.store.stores = true;
+  node.run_until_written(3);
+  CHECK(node.pose_in(2) == refused);
+  changes.T_fleet_map.translation = {0.0, 1.6, 0.0};
+  node.tick(changes);
+  node.run_until_written(4);
+  CHECK(node.pose_in(3) == *refused + 1);
+}
+
+}  // namespace warren
