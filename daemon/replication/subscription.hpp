@@ -26,7 +26,7 @@ class Subscription {
   static constexpr std::size_t kIntervalsAndPacketsMax = 60;
   // Told lost, and remembered in case that it was only late.
   static constexpr std::size_t kLateMax = 64;
-  // Some 15 full packets: a member's holdings have room whichever of them are lost.
+  // Some 15 full packets: so few that a member's holdings hardly run out of room by losses.
   static constexpr std::uint64_t kSmall_voxels = 250'000;
   // So many revisions apart, swept keys get packets of their own.
   static constexpr std::uint32_t kLevelWithin = 4;

@@ -184,8 +184,9 @@ void Reception::on_acknowledgement(MeshTime now, Peer& peer, const AckFrame& ack
   const InterfaceIndex interface = peer.paths.current()->interface;
   if (!node_.config.interfaces[interface].group_broadcast) return;
   const Node::Paces paces = node_.paces(now, interface);
-  node_.group_rates[interface].on_acknowledged(now, peer.session->flow.quality().queue,
-                                               paces.slowest, paces.fastest);
+  node_.group_rates[interface].on_acknowledged(
+      now, node_.pacers[interface].wants(NodePacer::kGroup), peer.session->flow.quality().queue,
+      paces.slowest, paces.fastest);
 }
 
 void Reception::on_frame(MeshTime now, Peer& peer, const MeshPath& from, Frame&& frame) {

@@ -64,7 +64,6 @@ void Transmission::wake_group(InterfaceIndex interface) {
   if (!node_.config.interfaces[interface].group_broadcast || group_awake_[interface]) return;
   group_awake_[interface] = true;
   group_alone_[interface] = false;
-  node_.group_rates[interface].want(true);
   node_.pacers[interface].want(NodePacer::kGroup, true);
   ++turns_wanted_[interface];
 }
@@ -189,7 +188,6 @@ std::optional<Datagram> Transmission::group_packet(MeshTime now, InterfaceIndex 
   if (!packet) {
     group_alone_[interface] = !heard;
     group_awake_[interface] = false;
-    node_.group_rates[interface].want(false);
     node_.pacers[interface].want(NodePacer::kGroup, false);
     --turns_wanted_[interface];
     return std::nullopt;

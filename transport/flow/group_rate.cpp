@@ -19,9 +19,10 @@ constexpr double kAboveFastest = 4.0;
 
 }  // namespace
 
-void GroupRate::on_acknowledged(MeshTime now, Duration standing, double slowest, double fastest) {
+void GroupRate::on_acknowledged(MeshTime now, bool wanted, Duration standing, double slowest,
+                                double fastest) {
   const bool lowers = standing > kLong;
-  const bool raises = standing < kShort && wants_;
+  const bool raises = standing < kShort && wanted;
   if ((!lowers && !raises) || now - changed_ < (lowers ? kLowerEvery : kRaiseEvery)) return;
   changed_ = now;
   rate_ = std::clamp(pace(slowest) * (lowers ? kLower : kRaise), slowest,

@@ -12,17 +12,16 @@ namespace warren::mesh {
 // anything is sent it stays what it was when it was measured, however low.
 class GroupRate {
  public:
-  // Whether packets for all wait for their turn.
-  void want(bool wants) { wants_ = wants; }
-  // An acknowledgement came of what was sent to a single member there. standing: Flow's queue to
-  // it; slowest, fastest: paces of the members in reach there, IP bytes/s.
-  void on_acknowledged(MeshTime now, Duration standing, double slowest, double fastest);
+  // An acknowledgement came of what was sent to a single member there. wanted: packets for all wait
+  // for their turn; standing: Flow's queue to the member; slowest, fastest: paces of the members in
+  // reach there, IP bytes/s.
+  void on_acknowledged(MeshTime now, bool wanted, Duration standing, double slowest,
+                       double fastest);
 
   // IP bytes/s.
   double pace(double slowest) const;
 
  private:
-  bool wants_ = false;
   double rate_ = 0.0;
   MeshTime changed_{};
 };

@@ -25,6 +25,11 @@ void NodePacer::want(Peer peer, bool wants) {
   }
 }
 
+bool NodePacer::wants(Peer peer) const {
+  const auto share = shares_.find(peer);
+  return share != shares_.end() && share->second.wants;
+}
+
 std::optional<NodePacer::Peer> NodePacer::next(MeshTime now) {
   if (now < ready_at_) return {};
   // The richest in airtime among those that want; on a tie the one after the last.

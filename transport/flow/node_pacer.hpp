@@ -27,6 +27,7 @@ class NodePacer {
   // Who wants to send a paced packet now. A peer that cannot (nothing to send, no room in flight)
   // should be unset, or it stalls nobody but itself.
   void want(Peer peer, bool wants);
+  bool wants(Peer peer) const;
   // The peer is no more; what it owes is forgotten.
   void forget(Peer peer) { shares_.erase(peer); }
 

@@ -78,11 +78,10 @@ TEST_CASE("beside another flow both shares of the link are told") {
     const auto& peer = entry.value();
     CAPTURE(entry.key());
     CHECK(!peer.contains("problem"));
-    CHECK(peer["share"] > 0.0);
-    CHECK(peer["share"] < 1.0);
+    CHECK(peer["share"] > 0.01);
+    CHECK(peer["share"] < 0.99);
     CHECK(peer["rival_efficiency"] > 0.0);
-    // Of one link; on a busy machine their times begin and end apart.
-    CHECK(peer["efficiency"].get<double>() + peer["rival_efficiency"].get<double>() < 1.2);
+    CHECK(peer["efficiency"].get<double>() + peer["rival_efficiency"].get<double>() < 1.0);
     CHECK(peer["oversend"].is_null());
   }
 }
