@@ -135,6 +135,29 @@ maps_are_shared() { # after all three are up; robot-2 and the base do not hear e
   done
 }
 
+case_a_key_that_cannot_be_used_is_told_before_and_at_the_start() {
+  printf 'sockets: {ingest: {path: %s}, control: {path: %s}}\nstore: {enabled: false}\n' \
+    "$work/ingest" "$work/control" >"$work/robot.yaml"
+  printf 'mesh: {key_file: %s, interfaces: [{name: lo}]}\n' "$work/fleet.key" >>"$work/robot.yaml"
+  told() { # TEXT
+    "$bin/warrend" --check "$work/robot.yaml" >"$work/check.out" 2>"$work/check.err" ||
+      fail "the config has faults: $(cat "$work/check.err")"
+    grep -q ': fine$' "$work/check.out" || fail "not fine: $(cat "$work/check.out")"
+    grep -q "$1" "$work/check.err" || fail "not told before: $(cat "$work/check.err")"
+    local status=0
+    timeout 20 "$bin/warrend" --config "$work/robot.yaml" 2>"$work/robot.log" || status=$?
+    [ "$status" -eq 1 ] || fail "it ended with $status"
+    grep -q "$1" "$work/robot.log" || fail "not told at the start"
+  }
+  told 'warrenctl key new'
+  "$bin/warrenctl" key new "$work/fleet.key" || fail "no key was made"
+  chmod 644 "$work/fleet.key"
+  told 'chmod 600'
+  chmod 600 "$work/fleet.key"
+  "$bin/warrend" --check "$work/robot.yaml" >"$work/check.out" 2>"$work/check.err"
+  [ ! -s "$work/check.err" ] || fail "told for nothing: $(cat "$work/check.err")"
+}
+
 case_a_base_has_what_robots_map_that_it_never_hears() {
   start_node robot-1 1
   start_node robot-2 2 1
