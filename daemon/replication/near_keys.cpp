@@ -70,7 +70,48 @@ void close_smallest_gap(std::vector<KeyInterval>& intervals) {
   intervals.erase(intervals.begin() + static_cast<std::ptrdiff_t>(best));
 }
 
+// The keys between those of a set.
+std::vector<KeyInterval> others_than(const KeySet& keys) {
+  std::vector<KeyInterval> others;
+  BlockOrdinal first = 0;
+  for (const KeyInterval& interval : keys.intervals) {
+    if (first < interval.first) others.push_back({first, interval.first});
+    first = interval.end;
+  }
+  if (first < KeyInterval{}.end) others.push_back({first, KeyInterval{}.end});
+  return others;
+}
+
+struct Run {
+  KeyInterval keys;
+  Revision highest;
+};
+
+void append_runs(std::vector<Run>& runs, const Holdings& held, const KeyInterval& keys) {
+  for (BlockOrdinal at = keys.first; at < keys.end;) {
+    const KeyInterval piece{at, std::min(held.interval_around(at).end, keys.end)};
+    const Revision revision = held.at(at);
+    at = piece.end;
+    if (revision == Revision{}) continue;
+    if (!runs.empty() && runs.back().keys.end == piece.first && piece.first > keys.first) {
+      runs.back() = {{runs.back().keys.first, piece.end}, std::max(runs.back().highest, revision)};
+    } else {
+      runs.push_back({piece, revision});
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<KeyInterval> left_behind(const Holdings& held, const KeySet& wanted) {
+  std::vector<Run> runs;
+  for (const KeyInterval& keys : others_than(wanted)) append_runs(runs, held, keys);
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const Run& a, const Run& b) { return a.highest < b.highest; });
+  std::vector<KeyInterval> keys;
+  for (const Run& run : runs) keys.push_back(run.keys);
+  return keys;
+}
 
 KeySet near_keys(const Eigen::Vector3d& point_layer, double radius_m, double resolution_m) {
   const double block_m = resolution_m * kBlockEdge;

@@ -82,6 +82,7 @@ HeldLayer* Pulling::on_diff(Peer& from, const DiffMessage& message) {
     pull.progress = node_.now;
     pull.fruitless = 0;
   }
+  if (applied.result == ApplyResult::kTooManyIntervals) make_room(*layer);
   const bool misses = applied.result == ApplyResult::kTooManyIntervals ||
                       (applied.claim && layer->replica().holdings().lowest(applied.claim->keys) <
                                             applied.claim->from);
@@ -90,6 +91,26 @@ HeldLayer* Pulling::on_diff(Peer& from, const DiffMessage& message) {
     on_gap(*layer, from);
   }
   return layer;
+}
+
+// Who wants what is near gives up some of what it has left behind if a copy is in many pieces: in
+// more than holdings may have, it takes no news.
+void Pulling::leave_behind(HeldLayer& layer) {
+  constexpr std::size_t kEnough = Holdings::kIntervalsMax * 3 / 4;
+  for (const KeyInterval& keys : left_behind(layer.replica().holdings(), keys_of(layer))) {
+    if (layer.replica().holdings().intervals().size() <= kEnough) return;
+    node_.book.forget(node_.now, layer, keys);
+  }
+}
+
+// If that is not enough the last pieces go, which a sweep brings last.
+void Pulling::make_room(HeldLayer& layer) {
+  constexpr std::size_t kAtMost = Holdings::kIntervalsMax - 2;  // a claim may need two more
+  constexpr std::size_t kGiven = 8;
+  leave_behind(layer);
+  const auto pieces = layer.replica().holdings().intervals();
+  if (pieces.size() <= kAtMost) return;
+  node_.book.forget(node_.now, layer, {pieces[pieces.size() - kGiven].first, KeyInterval{}.end});
 }
 
 void Pulling::on_gap(const HeldLayer& layer, const Peer& provider) {
@@ -172,11 +193,12 @@ void Pulling::tell(MemberId member, Slot slot) {
   node_.commands.emplace_back(Wake{member});
 }
 
-void Pulling::choose(const HeldLayer& layer) {
+void Pulling::choose(HeldLayer& layer) {
   Pull& pull = pulls_[layer.slot];
   KeySet keys = layer.full ? KeySet{{}} : keys_of(layer);
   const bool other_keys = keys != pull.keys;
   pull.keys = std::move(keys);
+  if (other_keys && !pull.keys.is_everything()) leave_behind(layer);
   const Choice choice =
       pull.keys.intervals.empty() ? Choice{} : choose_provider(candidates(layer, pull));
   pull.hops = choice.hops;
@@ -199,7 +221,7 @@ void Pulling::choose_all() {
 }
 
 // The provider says that it has more, and it does not come.
-void Pulling::watch(const HeldLayer& layer, Pull& pull) {
+void Pulling::watch(HeldLayer& layer, Pull& pull) {
   Peer* const provider = pull.provider ? node_.find(*pull.provider) : nullptr;
   const Announcement* const announced = provider == nullptr ? nullptr : provider->find(layer.id);
   if (announced == nullptr ||
@@ -217,6 +239,7 @@ void Pulling::watch(const HeldLayer& layer, Pull& pull) {
     pull.fruitless = 0;
     choose(layer);
   }
+  make_room(layer);
   ask_again(layer);
 }
 

@@ -60,13 +60,15 @@ class Pulling {
   static constexpr Duration kWatchEvery = std::chrono::seconds(1);
 
   std::vector<Candidate> candidates(const HeldLayer& layer, const Pull& pull) const;
-  void choose(const HeldLayer& layer);
+  void choose(HeldLayer& layer);
   void choose_all();
-  void watch(const HeldLayer& layer, Pull& pull);
+  void watch(HeldLayer& layer, Pull& pull);
   void tell(MemberId member, Slot slot);
   KeySet keys_of(const HeldLayer& layer) const;
   Wish wish_for(const Peer& to, const HeldLayer& layer, Slot theirs);
   void on_gap(const HeldLayer& layer, const Peer& provider);
+  void leave_behind(HeldLayer& layer);
+  void make_room(HeldLayer& layer);
 
   NodeState& node_;
   std::map<Slot, Pull> pulls_;  // by our slot

@@ -47,6 +47,12 @@ void Fleet::begin_layer(FleetNode& node, std::size_t index) {
   node.walker = std::make_unique<Walker>(config_.walker, random_.next());
 }
 
+Eigen::Vector3d Fleet::position(std::size_t index) const {
+  if (!nodes_[index].walker) return Eigen::Vector3d::Zero();
+  const BlockKey at = nodes_[index].walker->at();
+  return Eigen::Vector3d(at.x, at.y, at.z) * kBlockEdge * kDefaultResolution.metres();
+}
+
 mesh::MapSource& Fleet::on_start(MeshTime now, std::size_t index) {
   FleetNode& node = nodes_[index];
   replication::ReplicationConfig config;
@@ -68,9 +74,7 @@ mesh::MapSource& Fleet::on_start(MeshTime now, std::size_t index) {
   for (const auto& layer : node.own) node.replication->add_own(*layer);
   if (!node.replication->restore_logs(now, node.disk.logs())) fail("stored logs were not taken");
   node.replication->open_log(random_.next());
-  if (config.share.share == replication::Share::kNear) {
-    node.replication->on_position(now, Eigen::Vector3d::Zero());
-  }
+  node.replication->on_position(now, position(index));
   node.next_tick = writes(index) ? now + at_most(random_, config_.tick) : kNever;
   node.committing.reset();
   node.late.reset();
@@ -103,6 +107,7 @@ void Fleet::publish(MeshTime now, FleetNode& node) {
   if (!writing_) return;
   Replica& layer = *node.own.back();
   const auto sensed = node.walker->step(layer);
+  node.replication->on_position(now, position(layer.id().origin - 1));
   auto blocks = sensed;
   if (config_.planted == Planted::kMergedIntoSelf) add_foreign(node, blocks);
   const Revision before = layer.holdings().at(0);
@@ -221,40 +226,6 @@ void Fleet::check(FleetNode& node, std::size_t index) {
            std::to_string(index + 1));
     }
   }
-}
-
-std::optional<std::string> Fleet::lacking() const {
-  const auto name = [](const LayerId& id, std::size_t at) {
-    return "layer of " + std::to_string(id.origin) + " at node " + std::to_string(at + 1);
-  };
-  std::map<LayerId, const Replica*> reference;  // what its writer has, or who has most
-  std::set<LayerId> is_own;
-  for (const FleetNode& node : nodes_) {
-    if (!node.replication) continue;
-    for (const auto& layer : node.replication->book().layers()) {
-      const Replica*& best = reference[layer->id];
-      const bool better =
-          best == nullptr || layer->own != nullptr ||
-          (!is_own.contains(layer->id) && layer->highest() > best->holdings().highest({}));
-      if (better) best = &layer->replica();
-      if (layer->own != nullptr) is_own.insert(layer->id);
-    }
-  }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const bool all =
-        i >= config_.shares.size() || config_.shares[i].share == replication::Share::kEverything;
-    if (!nodes_[i].replication || !all) continue;
-    for (const auto& [id, best] : reference) {
-      if (best->holdings() == Holdings()) continue;
-      const replication::HeldLayer* const held =
-          std::as_const(*nodes_[i].replication).book().find(id);
-      if (held == nullptr) return name(id, i) + ": not known";
-      if (held->replica().holdings() != best->holdings()) return name(id, i) + ": behind";
-      if (held->replica().digest().root() != best->digest().root())
-        return name(id, i) + ": differs";
-    }
-  }
-  return std::nullopt;
 }
 
 bool Fleet::alter(std::size_t index, const LayerId& id) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "daemon/replication/replication.hpp"
 #include "tests/fleet/disk.hpp"
 #include "tests/fleet/history.hpp"
@@ -77,9 +79,11 @@ class Fleet final : public mesh::sim::Upper {
   // Another's code in one voxel of a copy, as a memory or a member might alter it; false if there
   // is none to be altered.
   bool alter(std::size_t index, const LayerId& layer);
-  // Everybody who wants it has all of every layer, as of its last revision, with equal digests;
-  // else what is lacking.
+  // Everybody has the most of every layer that anyone has, of what it wants; who wants everything
+  // has it with equal digests. Else what is lacking.
   std::optional<std::string> lacking() const;
+  // Where the node is, in the fleet frame.
+  Eigen::Vector3d position(std::size_t index) const;
   // A message to one or to all; nothing if the node is off, or its log full.
   std::optional<replication::ItemNumber> post(std::size_t index, std::optional<std::size_t> to,
                                               std::size_t bytes);

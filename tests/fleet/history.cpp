@@ -55,9 +55,12 @@ Revision History::latest(const LayerId& layer) const {
   return known == layers_.end() ? Revision{} : known->second.latest;
 }
 
-std::size_t History::blocks(const LayerId& layer) const {
+std::vector<BlockOrdinal> History::written(const LayerId& layer) const {
+  std::vector<BlockOrdinal> written;
   const auto known = layers_.find(layer);
-  return known == layers_.end() ? 0 : known->second.blocks.size();
+  if (known == layers_.end()) return written;
+  for (const auto& [block, versions] : known->second.blocks) written.push_back(block);
+  return written;
 }
 
 }  // namespace warren::fleet_sim

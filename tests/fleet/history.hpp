@@ -21,7 +21,9 @@ class History {
   // wrong.
   std::optional<std::string> fault_of(const Replica& replica) const;
   Revision latest(const LayerId& layer) const;
-  std::size_t blocks(const LayerId& layer) const;
+  std::size_t blocks(const LayerId& layer) const { return written(layer).size(); }
+  // All blocks that ever were written.
+  std::vector<BlockOrdinal> written(const LayerId& layer) const;
 
  private:
   struct Version {

@@ -7,16 +7,14 @@
 #include <sstream>
 #include <utility>
 
+#include "transport/flow/seconds.hpp"
+
 namespace warren::fleet_sim {
 namespace {
 
-using std::chrono::duration;
 using std::chrono::seconds;
 
-Duration in_seconds(double value) {
-  return std::chrono::duration_cast<Duration>(duration<double>(value));
-}
-double seconds_of(MeshTime time) { return duration<double>(time.time_since_epoch()).count(); }
+double seconds_of(MeshTime time) { return mesh::in_seconds(time.time_since_epoch()); }
 
 // Who hears whom.
 enum class Shape : std::uint8_t { kCell, kLine, kStar };
@@ -28,6 +26,7 @@ class Scenario {
 
  private:
   FleetConfig config(std::uint64_t seed, Planted planted);
+  replication::SharePolicy share();
   LinkConfig link(bool healed);
   bool hears(std::size_t a, std::size_t b) const;
   void set_links(bool healed);
@@ -49,6 +48,7 @@ class Scenario {
   double loss_ = 0.0;
   Duration delay_{};
   Duration trouble_{};
+  bool near_ = false;
   bool healed_ = false;
   std::set<std::pair<std::size_t, std::size_t>> cut_;
   std::ostringstream story_;
@@ -61,9 +61,9 @@ FleetConfig Scenario::config(std::uint64_t seed, Planted planted) {
   constexpr std::array kShapes{Shape::kCell, Shape::kCell, Shape::kLine, Shape::kStar};
   rate_bit_s_ = kRates[random_.below(kRates.size())];
   loss_ = random_.chance(0.3) ? 0.0 : random_.uniform(0.0, 0.4);
-  delay_ = in_seconds(random_.uniform(0.001, 0.1));
+  delay_ = mesh::from_seconds(random_.uniform(0.001, 0.1));
   shape_ = kShapes[random_.below(kShapes.size())];
-  trouble_ = in_seconds(random_.uniform(8.0, 25.0));
+  trouble_ = mesh::from_seconds(random_.uniform(8.0, 25.0));
   count_ = 2 + random_.below(4);
 
   FleetConfig config;
@@ -74,18 +74,15 @@ FleetConfig Scenario::config(std::uint64_t seed, Planted planted) {
   LinkModelConfig& network = config.mesh.networks.front();
   network.shared_airtime = random_.chance(0.4);
   config.mesh.interface.group_broadcast = random_.chance(0.3);
-  network.queue.time = in_seconds(random_.uniform(0.05, 0.8));
+  network.queue.time = mesh::from_seconds(random_.uniform(0.05, 0.8));
   network.link = link(false);
   // Slow links carry little.
   config.walker.blocks_per_step = rate_bit_s_ < 100e3 ? 1 : 1 + random_.below(4);
   config.walker.voxels_per_block = 10 + random_.below(50);
-  config.tick = in_seconds(rate_bit_s_ < 100e3 ? 2.0 : random_.uniform(0.3, 2.0));
+  config.tick = mesh::from_seconds(rate_bit_s_ < 100e3 ? 2.0 : random_.uniform(0.3, 2.0));
   for (std::size_t i = 0; i < count_; ++i) {
     config.writes.push_back(i == 0 || random_.chance(0.6));
-    config.shares.push_back({});
-    if (i > 0 && random_.chance(0.1)) {
-      config.shares.back().share = replication::Share::kNothing;
-    }
+    config.shares.push_back(i == 0 ? replication::SharePolicy{} : share());
   }
   // In a line and in a star everything goes through those in the middle.
   if (shape_ != Shape::kCell) config.shares.assign(count_, {});
@@ -99,6 +96,16 @@ FleetConfig Scenario::config(std::uint64_t seed, Planted planted) {
   return config;
 }
 
+replication::SharePolicy Scenario::share() {
+  using replication::Share;
+  if (random_.chance(0.1)) return {.share = Share::kNothing};
+  if (random_.chance(0.25)) {
+    near_ = true;
+    return {.share = Share::kNear, .radius_m = random_.uniform(2.0, 15.0)};
+  }
+  return {};
+}
+
 LinkConfig Scenario::link(bool healed) {
   LinkConfig link;
   link.capacity = Capacity(rate_bit_s_);
@@ -110,7 +117,7 @@ LinkConfig Scenario::link(bool healed) {
   if (random_.chance(0.3)) link.corrupt = random_.uniform(0.0, 0.05);
   if (random_.chance(0.3)) {
     link.reorder = random_.uniform(0.0, 0.1);
-    link.reorder_by = in_seconds(random_.uniform(0.0, 0.05));
+    link.reorder_by = mesh::from_seconds(random_.uniform(0.0, 0.05));
   }
   return link;
 }
@@ -141,7 +148,7 @@ void Scenario::set_links(bool healed) {
 void Scenario::plan_crash(MeshTime when) {
   const std::size_t node = random_.below(nodes());
   const bool lost = random_.chance(0.25);
-  const MeshTime again = when + in_seconds(random_.uniform(0.0, 6.0));
+  const MeshTime again = when + mesh::from_seconds(random_.uniform(0.0, 6.0));
   story_ << "; " << seconds_of(when) << " s: node " << node + 1 << " crashes"
          << (lost ? " and loses its store" : "");
   fleet_.mesh().at(when, [=, this] {
@@ -176,7 +183,7 @@ void Scenario::plan_strangers() {
     if (recorded_.size() < 2000) recorded_.push_back(datagram.bytes);
   };
   for (int i = 0; i < 100; ++i) {
-    const MeshTime when(in_seconds(random_.uniform(1.0, seconds_of(MeshTime(trouble_)))));
+    const MeshTime when(mesh::from_seconds(random_.uniform(1.0, seconds_of(MeshTime(trouble_)))));
     const std::size_t to = random_.below(nodes());
     const std::uint64_t draw = random_.next();
     fleet_.mesh().at(when, [=, this] {
@@ -193,7 +200,7 @@ void Scenario::plan_strangers() {
 
 void Scenario::plan_messages() {
   for (std::uint32_t i = random_.below(10); i > 0; --i) {
-    const MeshTime when(in_seconds(random_.uniform(0.5, seconds_of(MeshTime(trouble_)))));
+    const MeshTime when(mesh::from_seconds(random_.uniform(0.5, seconds_of(MeshTime(trouble_)))));
     const std::size_t from = random_.below(nodes());
     std::optional<std::size_t> to;
     if (random_.chance(0.6)) to = (from + 1 + random_.below(nodes() - 1)) % nodes();
@@ -204,8 +211,8 @@ void Scenario::plan_messages() {
 
 void Scenario::plan_troubles() {
   for (std::uint32_t i = random_.below(5); i > 0; --i) {
-    const MeshTime when(in_seconds(random_.uniform(1.0, seconds_of(MeshTime(trouble_)))));
-    const Duration length = in_seconds(random_.uniform(0.5, 12.0));
+    const MeshTime when(mesh::from_seconds(random_.uniform(1.0, seconds_of(MeshTime(trouble_)))));
+    const Duration length = mesh::from_seconds(random_.uniform(0.5, 12.0));
     const std::uint32_t kind = random_.below(3);
     if (kind == 0) {
       plan_crash(when);
@@ -250,7 +257,7 @@ Outcome Scenario::run() {
   for (std::size_t i = 0; i < fleet_.size(); ++i) {
     const bool late = random_.chance(0.2);
     const MeshTime when(
-        in_seconds(random_.uniform(0.0, late ? seconds_of(MeshTime(trouble_)) : 1.0)));
+        mesh::from_seconds(random_.uniform(0.0, late ? seconds_of(MeshTime(trouble_)) : 1.0)));
     fleet_.mesh().at(when, [=, this] {
       if (!fleet_.node(i).replication) fleet_.start(i);
     });
@@ -281,6 +288,7 @@ Outcome Scenario::run() {
   outcome.quiet_bytes = said_bytes() - before;
   outcome.story = story_.str();
   outcome.loss = loss_;
+  outcome.near = near_;
   outcome.seconds = seconds_of(fleet_.now());
   return outcome;
 }

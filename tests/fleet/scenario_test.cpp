@@ -13,8 +13,8 @@
 namespace warren::fleet_sim {
 namespace {
 
-// 200 in all, in parts that ctest runs side by side. WARREN_FLEET_SEED=N runs that one alone.
-constexpr std::uint64_t kSeedsPerPart = test::kUnderSanitizer ? 5 : 50;
+// 1000 in all, in parts that ctest runs side by side. WARREN_FLEET_SEED=N runs that one alone.
+constexpr std::uint64_t kSeedsPerPart = test::kUnderSanitizer ? 15 : 250;
 
 Outcome run(std::uint64_t seed) {
   Outcome outcome = run_scenario(seed);
@@ -22,8 +22,10 @@ Outcome run(std::uint64_t seed) {
   for (const auto& failure : outcome.failures) all += "\n  " + failure;
   CHECK_MESSAGE(outcome.failures.empty(), "WARREN_FLEET_SEED=", seed, ": ", outcome.story, all);
   // Where packets are lost, links come and go even in peace, and ways with them: at times a word is
-  // said about that, and where every third packet is lost, many.
-  const std::uint64_t quiet = outcome.loss < 0.05 ? 0 : outcome.loss < 0.1 ? 100 : 4000;
+  // said about that, and where every third packet is lost, many; longer ones where copies are in
+  // pieces.
+  const std::uint64_t many = outcome.near ? 8000 : 4000;
+  const std::uint64_t quiet = outcome.loss < 0.05 ? 0 : outcome.loss < 0.1 ? 100 : many;
   CHECK_MESSAGE(outcome.quiet_bytes <= quiet, "WARREN_FLEET_SEED=", seed,
                 " is not quiet: ", outcome.quiet_bytes, " bytes; ", outcome.story);
   return outcome;
@@ -65,16 +67,17 @@ TEST_CASE("a planted fault is noticed") {
   struct Case {
     const char* name;
     Planted planted;
-    std::uint64_t seeds;
+    std::size_t least;  // about half of what it was when this was written
   };
-  for (const Case& fault : {Case{"a widened claim", Planted::kClaimWidened, 10},
-                            Case{"a revision reused", Planted::kRevisionReused, 40},
-                            Case{"a merge into the own layer", Planted::kMergedIntoSelf, 10},
-                            Case{"a lost packet believed", Planted::kLostIsBelieved, 10},
-                            Case{"a store that lacks a block", Planted::kStoreWithoutCodes, 40}}) {
-    const std::size_t found = noticed(fault.planted, fault.seeds);
-    MESSAGE(std::string(fault.name), ": noticed by ", found, " of ", fault.seeds, " seeds");
-    CHECK_MESSAGE(found > 0, std::string(fault.name));
+  constexpr std::uint64_t kSeeds = 100;
+  for (const Case& fault : {Case{"a widened claim", Planted::kClaimWidened, 18},
+                            Case{"a revision reused", Planted::kRevisionReused, 4},
+                            Case{"a merge into the own layer", Planted::kMergedIntoSelf, 40},
+                            Case{"a lost packet believed", Planted::kLostIsBelieved, 16},
+                            Case{"a store that lacks a block", Planted::kStoreWithoutCodes, 9}}) {
+    const std::size_t found = noticed(fault.planted, kSeeds);
+    MESSAGE(std::string(fault.name), ": noticed by ", found, " of ", kSeeds, " seeds");
+    CHECK_MESSAGE(found >= fault.least, std::string(fault.name));
   }
 }
 }  // namespace

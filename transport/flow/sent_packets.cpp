@@ -21,7 +21,11 @@ constexpr Duration kTailTripMax = milliseconds{1500};
 constexpr Duration kTailSilenceMin = milliseconds{200};  // one alone is acknowledged late
 constexpr Duration kFirstRtt = milliseconds{700};        // before one was measured
 constexpr Duration kDecayPeriod = seconds{1};
-constexpr Duration kRememberLost = seconds{4};        // to notice that it was only late
+// To notice that a packet was only late. Where many flows fill a slow cell, that is very late: who
+// forgot it would never measure the round trip, and repeat everything for ever.
+constexpr Duration kRememberLost = seconds{4};
+constexpr Duration kRememberFew = seconds{12};
+constexpr std::size_t kFew = 256;                     // packets
 constexpr Duration kHeldTooLong = milliseconds{500};  // such a delay is no good for a round trip
 // Nobody waits for longer: a round trip above is held for this, whatever the peer says.
 constexpr Duration kRttMax = seconds{5};
@@ -265,13 +269,10 @@ void SentPackets::forget_settled(MeshTime now) {
   while (packets_.size() > 1) {
     const Record& record = packets_.front();
     if (record.fate == Fate::kInFlight) return;
-    const bool may_come_late = record.fate == Fate::kLost &&
-                               record.packet.sent + kRememberLost > now &&
-                               packets_.size() < kPacketsMax / 2;
-    const bool starts_a_pair = record.fate == Fate::kAcked && packets_[1].fate != Fate::kAcked &&
-                               record.packet.sent + kRememberLost > now &&
-                               packets_.size() < kPacketsMax / 2;
-    if (may_come_late || starts_a_pair) return;
+    const Duration remember = packets_.size() < kFew ? kRememberFew : kRememberLost;
+    const bool lately = record.packet.sent + remember > now && packets_.size() < kPacketsMax / 2;
+    const bool starts_a_pair = record.fate == Fate::kAcked && packets_[1].fate != Fate::kAcked;
+    if (lately && (record.fate == Fate::kLost || starts_a_pair)) return;
     packets_.pop_front();
     ++first_;
   }

@@ -59,6 +59,20 @@ TEST_CASE("a packet held lost that comes late is told as acknowledged, and makes
   CHECK(settled.lost.empty());
 }
 
+TEST_CASE("the round trip of a crowded cell is measured, though all packets are held lost before") {
+  SentPackets sent;
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    send(sent, i, at(static_cast<int>(i) * 750));
+    CHECK(numbers(sent.on_time(sent.loss_time()).lost) == std::vector<std::uint64_t>{i});
+  }
+  const auto settled = sent.on_ack(at(9000), ack({{0, 1}}));
+  CHECK(numbers(settled.acked) == std::vector<std::uint64_t>{0});
+  REQUIRE(sent.smoothed_rtt());
+  CHECK(*sent.smoothed_rtt() == seconds{5});  // no longer is waited for
+  send(sent, 12, at(9000));
+  CHECK(sent.loss_time() >= at(9000) + milliseconds{1500});
+}
+
 TEST_CASE("the last packet is lost by time, without any back-off") {
   SentPackets sent;
   send(sent, 0, at(0));
