@@ -132,14 +132,6 @@ void ItemLog::on_receipt(MemberId from, const mesh::ByteRanges& taken) {
 
 std::set<ItemNumber> ItemLog::take_changed() { return std::exchange(changed_, {}); }
 
-// A number that is not held is written as such, which takes an older row away.
-void ItemLog::change_all() {
-  for (const auto& [number, item] : items_) changed_.insert(number);
-  for (const mesh::NumberRange& range : voided_.ranges()) {
-    changed_.insert(static_cast<ItemNumber>(range.first));
-  }
-}
-
 std::size_t ItemLog::memory_bytes() const {
   return sizeof(*this) + bytes_ + changed_.size() * 40 +
          (seen_.ranges().size() + voided_.ranges().size() + tellable_.ranges().size()) * 16;

@@ -59,8 +59,10 @@ class ItemLog {
   // Numbers whose state changed since the last call.
   std::set<ItemNumber> take_changed();
   bool has_changed() const { return !changed_.empty(); }
-  // What was taken came nowhere: all counts as changed again.
-  void change_all();
+  // What was taken came nowhere: it counts as changed again.
+  void change(const std::set<ItemNumber>& numbers) {
+    changed_.insert(numbers.begin(), numbers.end());
+  }
 
  private:
   void erase(ItemNumber number);

@@ -166,12 +166,13 @@ std::vector<StoredLog> LogBook::take_batch(std::uint64_t batch) {
   for (const auto& held : logs_) {
     if (!held->log.has_changed()) continue;
     stored.push_back({held->log.id(), held->own, held->log.voided(), held->log.seen(), {}});
-    for (const ItemNumber number : held->log.take_changed()) {
+    std::set<ItemNumber> changed = held->log.take_changed();
+    for (const ItemNumber number : changed) {
       const Item* const item = held->log.find(number);
       stored.back().items[number] = item == nullptr ? std::nullopt : std::optional<Item>(*item);
     }
-    batched_.push_back(
-        {batch, held->slot, held->log.tellable(), std::exchange(fresh_[held->slot], {})});
+    batched_.push_back({batch, held->slot, std::move(changed), held->log.tellable(),
+                        std::exchange(fresh_[held->slot], {})});
   }
   return stored;
 }
@@ -205,7 +206,7 @@ void LogBook::on_refused(std::uint64_t batch) {
     }
     std::vector<ItemNumber>& fresh = fresh_[batched->slot];
     fresh.insert(fresh.begin(), batched->arrived.begin(), batched->arrived.end());
-    logs_[batched->slot]->log.change_all();
+    logs_[batched->slot]->log.change(batched->changed);
     batched = batched_.erase(batched);
   }
 }

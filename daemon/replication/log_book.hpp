@@ -73,7 +73,7 @@ class LogBook {
   // Everything up to this batch is stored; whether that moved anything on. Receipts for what was
   // addressed to us are written then, but for messages.
   bool on_stored(MeshTime now, std::uint64_t batch);
-  // Nothing of this batch is stored: the next one says it all again.
+  // Nothing of this batch is stored: the next one says it again.
   void on_refused(std::uint64_t batch);
   // Items of others that are stored, each once; after a restart again those addressed to us that no
   // receipt of ours names.
@@ -87,6 +87,7 @@ class LogBook {
   struct Batched {
     std::uint64_t batch = 0;
     Slot slot = 0;
+    std::set<ItemNumber> changed;
     mesh::ByteRanges tellable;
     std::vector<ItemNumber> arrived;
   };

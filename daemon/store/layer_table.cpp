@@ -84,9 +84,8 @@ BatchResult LayerTable::judge(const LayerWrite& write) const {
   const auto found = entries_.find(write.head.id);
   if (found == entries_.end()) return BatchResult::kStored;
   const LayerRow& before = found->second.row;
-  if (before.head.own != write.head.own || before.head.resolution != write.head.resolution) {
-    return BatchResult::kUnsound;
-  }
+  if (before.head.resolution != write.head.resolution) return BatchResult::kUnsound;
+  if (write.head.own && !before.head.own) return BatchResult::kUnsound;
   if (write.head.own) return judge_own(before, write);
   return lowers(before.head.holdings, write) ? BatchResult::kHoldingsLowered : BatchResult::kStored;
 }
@@ -98,7 +97,11 @@ bool LayerTable::write(const LayerWrite& write, std::uint64_t commit) {
     found = entries_.try_emplace(write.head.id, Entry{free_slot(), LayerRow{}}).first;
   }
   Entry& held = found->second;
+  // An own layer that is written like another's is a copy from now on, which neighbours complete.
+  const bool was_own = held.row.head.own;
   held.row.head = write.head;
+  held.row.head.own = was_own || write.head.own;
+  held.row.closed = held.row.closed || (was_own && !write.head.own);
   held.row.written_at = commit;
   put_head(held);
   for (const KeyInterval& keys : write.forgotten) {

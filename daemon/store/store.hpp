@@ -78,7 +78,7 @@ struct StartReport {
 
 struct StoredLayer {
   LayerHead head;
-  bool closed = false;  // an own layer that must not be continued
+  bool closed = false;  // an own layer that must not be continued; it may be written as a copy
 };
 
 struct StoreUsage {

@@ -3,6 +3,7 @@
 #include "daemon/fleet/fleet_mesh.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -11,7 +12,9 @@
 #include <asio/io_context.hpp>
 #include <asio/post.hpp>
 
+#include "daemon/store/store.hpp"
 #include "tests/daemon/small_fleet.hpp"
+#include "tests/daemon/temporary_directory.hpp"
 
 namespace warren {
 namespace {
@@ -30,6 +33,33 @@ class ScriptedStore final : public StorePort {
 
  private:
   asio::io_context& io_;
+};
+
+// A real store behind a driver that refuses when it is told to.
+class RefusingStore final : public StorePort {
+ public:
+  RefusingStore(asio::io_context& io, const std::filesystem::path& file)
+      : io_(io), store_(std::move(Store::open({.file = file})->store)) {}
+  void write(StoreBatch batch, std::function<void(bool)> done) override {
+    bool is_stored = false;
+    if (!refuses) {
+      const StoreBatch* const only = &batch;
+      const auto report = store_.commit({&only, 1});
+      REQUIRE(report.has_value());
+      results.push_back(report->results.at(0));
+      is_stored = results.back() == BatchResult::kStored;
+    }
+    ++written;
+    asio::post(io_, [done = std::move(done), is_stored] { done(is_stored); });
+  }
+
+  std::vector<BatchResult> results;
+  std::size_t written = 0;
+  bool refuses = false;
+
+ private:
+  asio::io_context& io_;
+  Store store_;
 };
 
 struct Node {
@@ -71,6 +101,35 @@ struct Node {
 };
 
 }  // namespace
+
+TEST_CASE("what a store refused it takes the next time, with what came before stored already") {
+  const TemporaryDirectory directory;
+  asio::io_context io;
+  RefusingStore store(io, directory / "store.db");
+  FleetMap map = test::fleet_map();
+  FleetMesh mesh(io, Node::config(), map, store);
+  map.on_open([&](const OwnLayer& layer) { mesh.on_opened(layer); });
+  mesh.start();
+  const auto write_after = [&](LayerChanges changes) {
+    map.tick({&changes, 1});
+    mesh.on_ticked({});
+    const std::size_t before = store.written;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (store.written == before && std::chrono::steady_clock::now() < end) {
+      io.run_one_until(end);
+    }
+    REQUIRE(store.written == before + 1);
+  };
+  LayerChanges changes = test::changes_of({test::floor_block({0, 0, 0}, 1)});
+  write_after(changes);  // of each kind of item one is stored then
+  store.refuses = true;
+  changes.T_fleet_map.translation = {0.0, 0.8, 0.0};
+  write_after(changes);
+  store.refuses = false;
+  changes.blocks = test::changes_of({test::floor_block({0, 1, 0}, 1)}).blocks;
+  write_after(changes);
+  CHECK(store.results == std::vector(2, BatchResult::kStored));
+}
 
 TEST_CASE("a pose is stored once, and again where the store refused it") {
   Node node;

@@ -135,6 +135,45 @@ TEST_CASE("a damaged store is moved aside, and the node begins anew") {
   CHECK(settled(robot, 1).map().scans() == 1);
 }
 
+TEST_CASE("a store that is put back from an older copy ends its layer, and the node goes on") {
+  Loopback fleet;
+  Config config = fleet.config("robot-1", 1, {});
+  config.store.file = fleet.file("robot.db");
+  RunningDaemon base(fleet.config("base", 0, {1}));
+  // The revision that the base has then.
+  const auto map_on = [&](std::uint64_t first, std::size_t points) {
+    RunningDaemon robot(config);
+    take_scans(robot, first, 2, points);
+    settled(robot, first + 1);
+    return node_named(wait_for(base, has_all_of("robot-1")), "robot-1")->layers(0).latest();
+  };
+  const std::uint32_t stored = map_on(1, 128);
+  std::filesystem::copy_file(fleet.file("robot.db"), fleet.file("old.db"));
+  const std::uint32_t lost = map_on(3, 2048);
+  REQUIRE(lost > stored);
+  std::filesystem::copy_file(fleet.file("old.db"), fleet.file("robot.db"),
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto has_both = [&](const control::FleetStatus& status) {
+    const control::FleetNode* const node = node_named(status, "robot-1");
+    const auto is_good = [&](const control::FleetLayer& layer) {
+      return layer.layer().number() == 0 ? layer.held_everywhere() == lost
+                                         : layer.latest() > 0 && layer.lag_revisions() == 0;
+    };
+    return node != nullptr && node->layers_size() == 2 &&
+           std::all_of(node->layers().begin(), node->layers().end(), is_good);
+  };
+  {
+    RunningDaemon robot(config);
+    take_scans(robot, 5, 2);
+    CHECK(settled(robot, 2).publishing().layer().number() == 1);
+    // The base has the new layer, and the robot gets back from it what it lost of the old one.
+    wait_for(base, has_both);
+    CHECK(wait_for(robot, has_both).batches_failed() == 0);
+  }
+  const RunningDaemon again(config);
+  wait_for(again, has_both);
+}
+
 TEST_CASE("two daemons cannot have one store, and a folder that is missing is named") {
   Loopback fleet;
   RunningDaemon robot(quick(fleet));

@@ -221,6 +221,19 @@ TEST_CASE("an old copy of the file that is put back is found out") {
   StoreBatch batch;
   batch.layers.push_back({{{1, 1, 4711}, kDefaultResolution, true, {}, Holdings({1})}, {}, {}});
   CHECK(commit_one(store, batch) == BatchResult::kStored);
+  // What was lost of it may come back from others that have it, and it stays closed.
+  const auto layers = store.layers();
+  const auto old = std::find_if(layers.begin(), layers.end(), [](const StoredLayer& layer) {
+    return layer.head.own && layer.closed;
+  });
+  REQUIRE(old != layers.end());
+  StoreBatch completed;
+  completed.layers.push_back({old->head, {}, {}});
+  completed.layers[0].head.own = false;
+  completed.layers[0].head.holdings = Holdings({old->head.holdings.highest({}).number + 5});
+  CHECK(commit_one(store, completed) == BatchResult::kStored);
+  completed.layers[0].head.own = true;
+  CHECK(commit_one(store, completed) == BatchResult::kLayerClosed);
 }
 
 TEST_CASE("damaged files are kept, up to a bound") {

@@ -126,12 +126,17 @@ TEST_CASE("no revision of an own layer is written twice") {
   CHECK(try_to(layer_write(kOwn, true, {4})) == BatchResult::kRevisionReused);
   CHECK(try_to(layer_write(kOwn, true, {6}, {some_block(9, 5)})) == BatchResult::kRevisionReused);
   CHECK(try_to(layer_write(kOwn, true, {6}, {some_block(9, 7)})) == BatchResult::kUnsound);
-  CHECK(try_to(layer_write(kOwn, false, {9})) == BatchResult::kUnsound);
   REQUIRE(store.layers().size() == 1);
   CHECK(store.layers()[0].head.holdings == Holdings({5}));
   CHECK(store.replica(store.layers()[0].head)->codes(3) == some_block(3, 5).codes);
   CHECK(try_to(layer_write(kOwn, true, {5})) == BatchResult::kStored);  // a pose, say
   CHECK(try_to(layer_write(kOwn, true, {6}, {some_block(9, 6)})) == BatchResult::kStored);
+  // From others it may come back where it is not continued; then it never is.
+  CHECK(try_to(layer_write(kOwn, false, {5})) == BatchResult::kHoldingsLowered);
+  CHECK(try_to(layer_write(kOwn, false, {9})) == BatchResult::kStored);
+  CHECK(store.layers()[0].head.own);
+  CHECK(store.layers()[0].closed);
+  CHECK(try_to(layer_write(kOwn, true, {10})) == BatchResult::kLayerClosed);
 }
 
 TEST_CASE("what is held of a copy goes down only where it was forgotten") {
