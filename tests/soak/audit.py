@@ -9,6 +9,9 @@ from warren_fleet.agreement import digests_of
 from warren_fleet.ledger import key_of
 from warren_fleet.node import Node
 
+# Questions that may go without an answer: one that a kill cut off in each life, and a few more when the
+# machine is busy, as each waits for 5 s.
+UNANSWERED_MAX = 3
 PUBLISHED_S = 3.0  # after the last scan: a flush takes what ticks have left, and no more
 
 
@@ -21,6 +24,28 @@ class Findings:
 
     def blame(self, text):
         self.notes.append(text)
+
+
+def check_tried(killer, seconds, accepted, relays, findings):
+    """Nothing can be lost where nothing was done."""
+    if not killer.kills and killer.is_due(seconds):
+        findings.blame("nobody was killed")
+    if not accepted:
+        findings.blame("no message was accepted")
+    for relay in relays:
+        if not relay.sent:
+            findings.blame(f"{relay.node.name} mapped no scan")
+
+
+def check_answers(observers, findings):
+    """An observer that hears nothing finds nothing."""
+    for observer in observers:
+        node = observer.node
+        if observer.broke or observer.answered == 0:
+            findings.blame(f"the observer of {node.name} broke off after {observer.answered} answers")
+        if observer.unanswered > node.life + UNANSWERED_MAX:
+            findings.blame(f"{node.name} left {observer.unanswered} questions unanswered in "
+                           f"{node.life} lives, {observer.answered} were answered")
 
 
 def check_digests(bin_dir, nodes, robots, work, findings):

@@ -3,6 +3,7 @@
 import random
 import time
 
+_TURN_S = 5.0  # between two turns, at most
 
 class Killer:
     """`forgetful`: a planted fault, every kill takes the store with it."""
@@ -47,6 +48,10 @@ class Killer:
         self.kills.append((now, node.name))
         self._dead.append((now + self._random.uniform(0.2, 4.0), node))
         self._observe(f"kill -9 {node.name}")
+
+    def is_due(self, seconds):
+        """Whether so long a run has time for a kill."""
+        return seconds > 0.5 * self._every_s + _TURN_S
 
     def revive_all(self):
         while self._dead:

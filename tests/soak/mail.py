@@ -9,11 +9,6 @@ from warren_fleet.protocol import Refused
 _EVERY_S = 2.0
 
 
-def exist(control_pb2):
-    """Whether these daemons carry messages at all."""
-    return "message_send" in control_pb2.Request.DESCRIPTOR.fields_by_name
-
-
 class Mail:
     """`accepted`: number -> (from, to); `arrived`: the numbers that each node's application read."""
 

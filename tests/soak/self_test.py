@@ -5,6 +5,7 @@ import pathlib
 import struct
 import sys
 import tempfile
+import threading
 import unittest
 from types import SimpleNamespace as Record
 
@@ -14,8 +15,10 @@ sys.dont_write_bytecode = True
 
 import audit  # noqa: E402
 import octree  # noqa: E402
+from killer import Killer  # noqa: E402
 from warren_fleet import measures, radio  # noqa: E402
-from warren_fleet.ledger import Ledger  # noqa: E402
+from warren_fleet.ledger import Ledger, Observer  # noqa: E402
+from warren_fleet.protocol import Refused  # noqa: E402
 from warren_fleet.scans import Scan  # noqa: E402
 
 LAYER = Record(origin=7, number=0, incarnation=1)
@@ -113,6 +116,87 @@ class Scans(unittest.TestCase):
 def tree(*nodes):
     head = b"# Octomap OcTree file\nid OcTree\nsize %d\nres 0.1\ndata\n" % len(nodes)
     return octree.Tree(head + b"".join(struct.pack("<fB", *node) for node in nodes))
+
+
+class Trials(unittest.TestCase):
+    """What a soak must have done for its verdict to mean anything."""
+
+    def notes(self, *, kills=1, seconds=120.0, accepted=1, scans=(1, 1)):
+        killer = Killer(None, 60.0, 1, None)
+        killer.kills = [(0.0, "base")] * kills
+        relays = [Record(node=Record(name=f"robot-{i}"), sent=[None] * count)
+                  for i, count in enumerate(scans)]
+        findings = audit.Findings()
+        audit.check_tried(killer, seconds, {1: None} if accepted else {}, relays, findings)
+        return findings.notes
+
+    def test_all_was_tried(self):
+        self.assertEqual(self.notes(), [])
+
+    def test_without_a_kill_it_fails_if_there_was_time_for_one(self):
+        self.assertEqual(len(self.notes(kills=0)), 1)
+        self.assertEqual(self.notes(kills=0, seconds=30.0), [])
+
+    def test_without_a_message_or_a_robot_s_scans_it_fails(self):
+        self.assertEqual(len(self.notes(accepted=0)), 1)
+        self.assertEqual(len(self.notes(scans=(0, 1))), 1)
+
+    def heard(self, answered, unanswered, life=2, broke=False):
+        observer = Record(node=Record(name="base", life=life), answered=answered,
+                          unanswered=unanswered, broke=broke)
+        findings = audit.Findings()
+        audit.check_answers([observer], findings)
+        return findings.notes == []
+
+    def test_a_question_for_each_kill_and_three_more_may_be_unanswered(self):
+        self.assertTrue(self.heard(100, 5))
+        self.assertFalse(self.heard(100, 6))
+
+    def test_an_observer_that_heard_nothing_or_broke_off_is_no_witness(self):
+        self.assertFalse(self.heard(0, 0))
+        self.assertFalse(self.heard(100, 0, broke=True))
+
+
+class Asked:
+    """A node that answers every question by an error, and says that it is up, or not."""
+    name, life = "base", 1
+
+    def __init__(self, error, up):
+        self.error, self.up, self.asked = error, up, threading.Event()
+
+    def connect(self, timeout_s):
+        return self
+
+    def ask(self, **_):
+        self.asked.set()
+        raise self.error
+
+    def is_up(self):
+        return self.up
+
+    def close(self):
+        pass
+
+
+class Observers(unittest.TestCase):
+    def observe(self, error, up):
+        node = Asked(error, up)
+        observer = Observer(node, None)
+        self.assertTrue(node.asked.wait(10.0))
+        observer.stop()
+        return observer
+
+    def test_only_questions_to_a_node_that_is_up_count_as_unanswered(self):
+        for error in (ConnectionRefusedError(), Refused("no")):
+            self.assertGreaterEqual(self.observe(error, up=True).unanswered, 1)
+            self.assertEqual(self.observe(error, up=False).unanswered, 0)
+
+    def test_an_observer_that_ends_by_itself_is_found(self):
+        observer = Observer(Asked(SystemExit(), up=True), None)
+        observer._thread.join(10.0)
+        observer.stop()
+        observer.stop()
+        self.assertTrue(observer.broke)
 
 
 class Octrees(unittest.TestCase):

@@ -4,6 +4,8 @@ import json
 import threading
 import time
 
+from .protocol import Refused
+
 _EVERY_S = 0.5
 # What a node tells of itself is taken for acknowledged once it lived on for so long with nothing
 # waiting for the disk; what another node tells of it, at once.
@@ -99,11 +101,13 @@ class Observer:
     """Asks one node for its status again and again, through its deaths."""
 
     def __init__(self, node, ledger):
-        self._node, self._ledger = node, ledger
+        self.node, self._ledger = node, ledger
         self._control = node.connect(timeout_s=5.0)
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
-        self.unanswered = 0  # questions, while the node was alive
+        self.answered = 0
+        self.unanswered = 0  # questions, though the node had answered in this life
+        self.broke = False   # it ended by itself
         self._thread.start()
 
     def _run(self):
@@ -111,19 +115,21 @@ class Observer:
         while not self._stopped.wait(_EVERY_S):
             try:
                 status, fleet = self._control.ask(status={}), self._control.ask(fleet_status={})
-            except OSError:
-                self.unanswered += self._node.is_running()
+            except (OSError, Refused):
+                self.unanswered += self.node.is_up()
                 continue
             now = time.time()
-            if life != self._node.life:
-                life, sent = self._node.life, {}
-                self._ledger.note_life(self._node.name)
-            self._ledger.note_status(now, self._node.name, status)
-            self._ledger.note_fleet(now, self._node.name, fleet)
-            sent = self._ledger.note_sent(self._node.name, sent, fleet)
-            self._ledger.note(_record(self._node, status, fleet))
+            self.answered += 1
+            if life != self.node.life:
+                life, sent = self.node.life, {}
+                self._ledger.note_life(self.node.name)
+            self._ledger.note_status(now, self.node.name, status)
+            self._ledger.note_fleet(now, self.node.name, fleet)
+            sent = self._ledger.note_sent(self.node.name, sent, fleet)
+            self._ledger.note(_record(self.node, status, fleet))
 
     def stop(self):
+        self.broke |= not self._stopped.is_set() and not self._thread.is_alive()
         self._stopped.set()
         self._thread.join(15.0)
         self._control.close()

@@ -19,7 +19,7 @@ class Node:
         self.namespace = None
         self.ingest, self.socket = self.work / f"{name}.ingest", self.work / f"{name}.control"
         self.log = self.work / f"{name}.log"
-        self.life = 0
+        self.life, self._is_starting = 0, False
         self._bin, self._pb = pathlib.Path(bin_dir), control_pb2
         self.settings = dict(settings or {})
         self._process = None
@@ -58,7 +58,7 @@ class Node:
 
     def start(self, wait_s=60.0):
         """Seconds until it answered."""
-        self.life += 1
+        self.life, self._is_starting = self.life + 1, True
         before = time.monotonic()
         inside = ["ip", "netns", "exec", self.namespace] if self.namespace else []
         command = [*inside, self._bin / "warrend", "--config", self._config()]
@@ -69,6 +69,7 @@ class Node:
                 raise RuntimeError(f"{self.name} ended with {self._process.returncode}: {self.tail()}")
             try:
                 self._control.ask(status={})
+                self._is_starting = False
                 return time.monotonic() - before
             except OSError:
                 time.sleep(0.05)
@@ -76,6 +77,10 @@ class Node:
 
     def is_running(self):
         return self._process is not None and self._process.poll() is None
+
+    def is_up(self):
+        """It runs, and has answered since it was started."""
+        return self.is_running() and not self._is_starting
 
     def kill(self):
         self._control.close()
