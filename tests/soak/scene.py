@@ -20,10 +20,12 @@ SETTINGS = {"layer": [f"tick_s: {TICK_S}", "flush_after_s: 5"],
 
 
 class Scene:
-    """`hermit`: the robot that only ever meets one other robot. From the main thread alone."""
+    """`hermit`: the robot that only ever meets one other robot. `out`: a folder with room for all
+    scans. From the main thread alone."""
 
-    def __init__(self, bin_dir, modules, work, *, minutes, robots, seed):
+    def __init__(self, bin_dir, modules, work, out, *, minutes, robots, seed):
         self.bin, self.work, self.seconds = bin_dir, work, 60.0 * minutes
+        self._out = out
         control_pb2, self._ingest_pb2 = modules
         self._random = random.Random(seed)
         self._group_packets = seed % 2 == 0
@@ -49,7 +51,7 @@ class Scene:
              "--neighbour-retry-ms", "100", "--seed", self.world.seed],
             group_packets=self._group_packets)
         for robot in self.robots:
-            self.recordings.append(Recording(self.work / f"{robot.name}.scans"))
+            self.recordings.append(Recording(self._out))
             self.relays.append(Relay(self._ingest_pb2, robot, self.recordings[-1]))
 
     def _trace(self):

@@ -5,8 +5,6 @@ fleet, as JSON. Needs root."""
 import argparse
 import json
 import pathlib
-import shutil
-import signal
 import sys
 import tempfile
 import time
@@ -15,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/python"))
 sys.dont_write_bytecode = True
 
-from warren_fleet import agreement, link, measures, protocol  # noqa: E402
+from warren_fleet import agreement, link, measures, processes, protocol  # noqa: E402
 from warren_fleet.driving import World, summary_of  # noqa: E402
 from warren_fleet.fleet import Fleet  # noqa: E402
 from warren_fleet.ledger import Ledger, Observer  # noqa: E402
@@ -36,7 +34,8 @@ class Trial:
                  loss=0.0, shared=False, group_packets=False, stagger_s=0.0, resolution_m=0.1,
                  range_m=20.0, pace="real", alone=False):
         """alone: robots hear only the base and copy nothing, and nobody observes."""
-        self.work = pathlib.Path(tempfile.mkdtemp(prefix="warren-bench-"))
+        self._folder = tempfile.TemporaryDirectory(prefix="warren-bench-", ignore_cleanup_errors=True)
+        self.work = pathlib.Path(self._folder.name)
         self.seconds, self.columns, self.scan_hz, self.pace = seconds, columns, scan_hz, pace
         self.rate, self.loss = rate, loss
         control_pb2, _ = protocol.make_modules(self.work / "proto")
@@ -76,7 +75,7 @@ class Trial:
             self.sim.wait()
         self.fleet.close()
         self.ledger.close()
-        shutil.rmtree(self.work, ignore_errors=True)
+        self._folder.cleanup()
 
     def drive(self):
         """Until the robots have seen all; how many scans they sent and how many were mapped."""
@@ -225,7 +224,7 @@ def main():
         return 77
     if unknown := set(arguments.parts) - set(PARTS):
         parser.error(f"no part {' '.join(sorted(unknown))}")
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    processes.clean_up_on_signals()
     result = {}
     for part in arguments.parts:
         result[part] = []

@@ -3,6 +3,7 @@
 import ctypes
 import signal
 import subprocess
+import sys
 
 _PR_SET_PDEATHSIG = 1
 _libc = ctypes.CDLL(None, use_errno=True)
@@ -10,6 +11,21 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 def _die_with_parent():
     _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def clean_up_on_signals():
+    """SIGTERM, and the SIGHUP of a terminal that is gone, end this process by SystemExit: `finally`
+    runs, and no more of them disturb it. Under nohup SIGHUP stays ignored."""
+    ending = [each for each in (signal.SIGTERM, signal.SIGHUP)
+              if signal.getsignal(each) != signal.SIG_IGN]
+
+    def leave(number, _):
+        for each in ending:
+            signal.signal(each, signal.SIG_IGN)
+        sys.exit(128 + number)
+
+    for each in ending:
+        signal.signal(each, leave)
 
 
 def start(command, **options):

@@ -3,6 +3,7 @@
 import dataclasses
 import socket
 import struct
+import tempfile
 
 from .protocol import framed, read_exactly, read_frame
 
@@ -20,10 +21,11 @@ class Scan:
 
 
 class Recording:
-    """The frames of one robot's scans, in a file."""
+    """The frames of one robot's scans, in a file of `folder` that has no name: it is gone with this
+    process, whatever ends that."""
 
-    def __init__(self, path):
-        self._file = open(path, "w+b")
+    def __init__(self, folder):
+        self._file = tempfile.TemporaryFile(dir=folder)
         self._end = 0
 
     def add(self, sequence, frame):
