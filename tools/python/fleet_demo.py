@@ -5,7 +5,6 @@ namespaces behind the world's own radio as root, over the loopback interface oth
 import argparse
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -28,6 +27,18 @@ LEAD_S = 10.0
 AGREEMENT_S = 90.0
 SETTINGS = {"layer": ["flush_after_s: 5"], "map": ["resolution_m: 0.1"],
             "sensors": ["- name: lidar", "  max_range_m: 20.0"]}
+MERGE, COST, ROBOT = 1, 1, 2  # as control.proto numbers sources and colours
+FILES = {"merge.ply": {"source": MERGE}, "merge.pcd": {"source": MERGE}, "merge.bt": {"source": MERGE},
+         "height.png": {"source": MERGE}, "robots.png": {"source": MERGE, "colours": ROBOT},
+         "terrain.png": {"source": MERGE, "colours": COST},
+         **{f"robot-{i}.layer": {"of": f"robot-{i}"} for i in range(ROBOTS)}}
+
+
+def forget_last_run(out):
+    """What is found there at the end is of this run, or not there."""
+    out.mkdir(parents=True, exist_ok=True)
+    for file in (*(out / name for name in FILES), *out.glob("*.log"), *out.glob("world/*.png")):
+        file.unlink(missing_ok=True)
 
 
 class Demo:
@@ -35,7 +46,7 @@ class Demo:
         self.out, self.work, self.seconds = arguments.out, work, arguments.seconds
         control_pb2, _ = protocol.make_modules(work / "proto")
         self.world = World(BIN, preset=arguments.world, seed=arguments.seed, seconds=self.seconds,
-                           robots=ROBOTS, stagger_s=8.0)
+                           robots=ROBOTS, stagger_s=min(8.0, self.seconds / 8))
         self.preset, self.seed = arguments.world, arguments.seed
         self.fleet = Fleet(BIN, control_pb2, work, robots=ROBOTS, settings=SETTINGS)
         self.ledger = Ledger(self.out / "ledger.jsonl")
@@ -47,8 +58,8 @@ class Demo:
         agreed = self.agree()
         for observer in self.observers:
             observer.stop()
-        self.save()
-        return self.summarise() and agreed
+        # All three, and each says what is wrong.
+        return all([self.save(), self.summarise(), agreed])
 
     def start(self):
         why = link.why_not()
@@ -113,16 +124,16 @@ class Demo:
         return not missing
 
     def save(self):
-        base = self.fleet.base
-        for name, fields in {
-                "merge.ply": {"source": 1}, "merge.pcd": {"source": 1}, "merge.bt": {"source": 1},
-                "height.png": {"source": 1}, "robots.png": {"source": 1, "colours": 2},
-                "terrain.png": {"source": 1, "colours": 1},
-                **{f"{robot.name}.layer": {"of": robot.name} for robot in self.fleet.robots}}.items():
-            if base.save(self.out / name, **fields) is None:
-                print(f"   NOT SAVED: {name}")
+        saved = True
+        for name, fields in FILES.items():
+            try:
+                self.fleet.base.ask(map_save={"path": str(self.out / name)} | fields)
+            except protocol.Refused as why:
+                print(f"   NOT SAVED: {name}: {why}")
+                saved = False
         processes.run([BIN / "warren-sim", "render", "--world", self.preset, "--seed", self.seed,
                        "--out", self.out / "world"], timeout_s=120.0)
+        return saved
 
     def summarise(self):
         fleet = self.fleet
@@ -167,19 +178,25 @@ def main():
     parser.add_argument("--seconds", type=float, default=120.0)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/demo")
     arguments = parser.parse_args()
-    arguments.out = arguments.out.resolve()
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    work = pathlib.Path(tempfile.mkdtemp(prefix="warren-demo-"))
-    demo = Demo(arguments, work)
-    try:
-        return 0 if demo.run() else 1
-    except (OSError, RuntimeError, subprocess.SubprocessError) as error:
-        print(f"tools/demo: {error}", file=sys.stderr)
+    shown, arguments.out = arguments.out, arguments.out.resolve()
+    forget_last_run(arguments.out)
+    processes.clean_up_on_signals()
+    with tempfile.TemporaryDirectory(prefix="warren-demo-", ignore_cleanup_errors=True) as work:
+        demo = Demo(arguments, pathlib.Path(work))
+        try:
+            good = demo.run()
+        except (OSError, RuntimeError, protocol.Refused, subprocess.SubprocessError) as error:
+            print(f"tools/demo: {error}", file=sys.stderr)
+            return 1
+        finally:
+            demo.close()
+    if not good:
+        print("== FAILED: see what is in capitals above", flush=True)
         return 1
-    finally:
-        demo.close()
-        shutil.rmtree(work, ignore_errors=True)
+    print(f"== done: look at {shown}/robots.png (who mapped what) and {shown}/terrain.png (how hard the "
+          f"ground is to drive), beside {shown}/world")
+    print(processes.run(["ls", "-l", arguments.out]), end="")
+    return 0
 
 
 if __name__ == "__main__":
