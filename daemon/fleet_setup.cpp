@@ -67,6 +67,7 @@ tl::expected<FleetConfig, std::string> fleet_config_of(const Config& config) {
   fleet.tick = time_of<std::chrono::nanoseconds>(config.layer.tick_s);
   fleet.shutdown = time_of<Duration>(config.mesh.shutdown_s);
   FleetMeshConfig& mesh = fleet.mesh;
+  mesh.tick = time_of<Duration>(config.layer.tick_s);
   if (config.mesh.is_on()) {
     const auto key = read_key_file(config.mesh.key_file);
     if (!key) return tl::unexpected(key.error());

@@ -40,6 +40,7 @@ FleetMesh::FleetMesh(asio::io_context& io, const FleetMeshConfig& config, FleetM
       store_(store),
       replication_(config.replication),
       timer_(io),
+      word_(config.tick),
       desk_({config.replication.self, config.role, config.log_incarnation, replication_, map,
              nodes_, [this] { turn_soon(); }}) {
   if (!config.runner) return;

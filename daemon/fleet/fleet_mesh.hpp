@@ -34,6 +34,7 @@ struct FleetMeshConfig {
   std::uint64_t log_incarnation = 0;  // fresh random bits
   std::string name;
   NodeRole role = NodeRole::kRobot;
+  Duration tick = std::chrono::seconds(1);
 };
 
 // Keeps the layers of this node and those of others in step over real sockets: drives replication

@@ -36,7 +36,7 @@ struct Timers {
 };
 
 struct LayerLimits {
-  std::size_t layers_max = 128;                            // held at once, own ones included
+  std::size_t layers_max = 192;                            // above: no more copies, own ones still
   std::size_t regions_max = 8192;                          // of a copy; each up to 512 blocks
   std::size_t copies_bytes_max = std::size_t{2048} << 20;  // of all copies in memory
 };
@@ -45,7 +45,7 @@ struct ReplicationConfig {
   MemberId self;
   SharePolicy share;
   LayerLimits layers;
-  std::size_t logs_max = 96;
+  std::size_t logs_max = 224;  // one per life of a node without its store
   // Interfaces on which fresh packets go to all who hear them; as the endpoint is configured.
   std::vector<bool> group_broadcast;
   Timers timers;

@@ -32,7 +32,7 @@ HeldLayer& LayerBook::insert(const LayerId& id) {
 }
 
 bool LayerBook::add_own(const Replica& layer) {
-  if (layers_.size() >= limits_.layers_max || by_id_.contains(layer.id())) return false;
+  if (layers_.size() >= kSlotsMax || by_id_.contains(layer.id())) return false;
   assert(layer.holdings().intervals().size() == 1);
   HeldLayer& held = insert(layer.id());
   held.own = &layer;

@@ -59,8 +59,9 @@ enum class Admission : std::uint8_t { kKnown, kAdmitted, kOwnLayer, kOtherResolu
 // Why a packet for a copy was not applied, beyond what its replica says.
 enum class Refusal : std::uint8_t { kOwnLayer, kNoRoom };
 
-// The layers this node holds: its own, which are only read here, and copies. At most so many, each
-// copy with at most so many regions, and all copies in so much memory: a member may claim anything.
+// The layers this node holds: its own, which are only read here, and copies. At most so many, with
+// some room that only own ones get; each copy with at most so many regions, and all copies in so
+// much memory: a member may claim anything.
 class LayerBook {
  public:
   explicit LayerBook(const LayerLimits& limits) : limits_(limits) {

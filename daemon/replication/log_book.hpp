@@ -65,6 +65,7 @@ class LogBook {
   void make_void(MeshTime now, const VoidParcel& parcel);
 
   bool has_unstored() const;
+  bool all_stored() const { return batched_.empty() && !has_unstored(); }
   std::vector<StoredLog> take_batch(std::uint64_t batch);
   // These of the own log count no more.
   void withdraw(MeshTime now, const mesh::ByteRanges& numbers);

@@ -70,7 +70,15 @@ bool LogExchange::on_parcel(MeshTime now, const mesh::ParcelArrived& parcel) {
     return false;
   }
   to_finish_.emplace_back(parcel.from, parcel.key);
+  finish_if_all_is_stored();
   return true;
+}
+
+void LogExchange::finish_if_all_is_stored() {
+  if (!book_.all_stored()) return;
+  for (const auto& [from, key] : std::exchange(to_finish_, {})) {
+    commands_.emplace_back(FinishParcel{from, key});
+  }
 }
 
 void LogExchange::on_parcel_sent(std::uint64_t number, std::optional<mesh::ParcelKey> key) {
@@ -110,6 +118,7 @@ void LogExchange::on_stored(MeshTime now, std::uint64_t batch) {
     commands_.emplace_back(finishing_.front().second);
     finishing_.pop_front();
   }
+  finish_if_all_is_stored();
 }
 
 std::vector<Candidate> LogExchange::candidates(const HeldLog& held) const {

@@ -86,6 +86,8 @@ class LogExchange {
     std::optional<LogAnnouncement> last;
   };
 
+  // Of parcels that brought nothing new no batch will tell.
+  void finish_if_all_is_stored();
   void choose(const HeldLog& held);
   std::vector<Candidate> candidates(const HeldLog& held) const;
   void tell(MemberId member, Slot slot);

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "transport/delivery/telemetry_board.hpp"
 #include "transport/visitor.hpp"
 
 namespace warren::replication {
 
 using mesh::Visitor;
+
+// And some of the daemon's.
+static_assert(2 * kSlotsMax + 16 <= mesh::TelemetryBoard::kKeysMax);
 
 Replication::Replication(const ReplicationConfig& config)
     : node_(config),

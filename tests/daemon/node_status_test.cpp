@@ -92,7 +92,7 @@ TEST_CASE("times of very many revisions are thinned, never forgotten at the ends
 }
 
 TEST_CASE("nothing is told while nothing but the time changes; the fleet hears less often") {
-  OwnWord word;
+  OwnWord word(seconds(1));
   const auto first = word.judge(at(100), status_at(1, 1));
   CHECK(first.neighbours);
   CHECK(first.fleet);
@@ -101,18 +101,38 @@ TEST_CASE("nothing is told while nothing but the time changes; the fleet hears l
   CHECK_FALSE(same.fleet);
   CHECK(word.judge(at(1001), status_at(2, 3)).fleet);
   const auto soon = word.judge(at(1002), status_at(3, 4));
-  CHECK(soon.neighbours);
+  CHECK_FALSE(soon.neighbours);
   CHECK_FALSE(soon.fleet);
-  // What was not told to the fleet yet is told later, even though nothing changes any more.
+  // What was not told yet is told later, even though nothing changes any more.
+  CHECK(word.judge(at(1004), status_at(3, 5)).neighbours);
   const auto later = word.judge(at(1012), status_at(3, 5));
   CHECK_FALSE(later.neighbours);
   CHECK(later.fleet);
-  CHECK(word.judge(at(1013), status_at(4, 6), true).fleet);
+  const auto last = word.judge(at(1013), status_at(4, 6), true);
+  CHECK(last.neighbours);
+  CHECK(last.fleet);
   NodeStatus moved = status_at(4, 7);
   moved.position_fleet->x() += 0.5F;
-  CHECK_FALSE(word.judge(at(1014), moved).neighbours);
+  CHECK_FALSE(word.judge(at(1020), moved).neighbours);
   moved.position_fleet->x() += 1.0F;
-  CHECK(word.judge(at(1015), moved).neighbours);
+  CHECK(word.judge(at(1021), moved).neighbours);
+}
+
+TEST_CASE("neighbours hear of what changes with every tick every fifth time, of a layer at once") {
+  OwnWord word(seconds(1));
+  int told = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    told += word.judge(at(tick), status_at(static_cast<std::uint32_t>(tick), tick)).neighbours;
+  }
+  CHECK(told == 20);
+  NodeStatus other = status_at(101, 101);
+  ++other.layer->id.number;
+  CHECK(word.judge(at(101), other).neighbours);
+  // A slow tick is told each time.
+  OwnWord slow(seconds(10));
+  for (int tick = 0; tick < 10; ++tick) {
+    CHECK(slow.judge(at(10 * tick), status_at(static_cast<std::uint32_t>(tick), tick)).neighbours);
+  }
 }
 
 }  // namespace warren

@@ -15,7 +15,7 @@ namespace warren::mesh {
 // The latest value of each key: one board per node, read by the outboxes of all peers.
 class TelemetryBoard {
  public:
-  static constexpr std::size_t kKeysMax = 256;
+  static constexpr std::size_t kKeysMax = 640;
 
   struct Value {
     std::uint32_t version = 0;

@@ -10,7 +10,7 @@ namespace warren::mesh {
 // The latest version of each key that came in one boot of the peer. Versions wrap around.
 class TelemetryVersions {
  public:
-  static constexpr std::size_t kKeysMax = 256;
+  static constexpr std::size_t kKeysMax = 640;
   enum class Verdict : std::uint8_t { kNew, kStale, kTooManyKeys };
 
   Verdict take(std::uint16_t key, std::uint32_t version);
