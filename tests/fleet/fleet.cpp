@@ -249,6 +249,18 @@ bool Fleet::alter(std::size_t index, const LayerId& id) {
   return packet && book.apply(now(), *layer, packet->bytes).result == ApplyResult::kApplied;
 }
 
+std::uint64_t Fleet::said_bytes() {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const mesh::EndpointCounts counts = simulation_.node(i).endpoint->counts();
+    for (std::size_t of = 0; of < mesh::kSentClassNames.size(); ++of) {
+      const auto sent = static_cast<mesh::SentClass>(of);
+      if (sent != mesh::SentClass::kBeacon) bytes += counts[sent].bytes;
+    }
+  }
+  return bytes;
+}
+
 std::size_t Fleet::memory_bytes(std::size_t index) const {
   return nodes_[index].replication ? nodes_[index].replication->memory_bytes() : 0;
 }

@@ -89,6 +89,16 @@ class Fleet final : public mesh::sim::Upper {
                                               std::size_t bytes);
   // A message that has not come to whom it is for; those excused that a crash took unstored.
   std::optional<std::string> undelivered() const;
+  // A node whose memory or store holds more than what was written explains.
+  std::optional<std::string> beyond_bounds() const;
+  // Of copies, in the present lives of all nodes.
+  struct Packets {
+    std::uint64_t applied = 0;
+    std::uint64_t duplicate = 0;  // all of it was held already
+  };
+  Packets packets() const;
+  // All that was sent but beacons; acknowledgements and questions are in it.
+  std::uint64_t said_bytes();
   const std::vector<std::string>& failures() const { return failures_; }
 
   // Upper

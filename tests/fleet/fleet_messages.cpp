@@ -49,15 +49,19 @@ std::optional<std::string> Fleet::undelivered() const {
   return std::nullopt;
 }
 
-// What was not stored yet may be lost, and with its store all that nobody else has.
+// What no store has any more, and its writer neither, may be lost.
 void Fleet::excuse(std::size_t index, bool disk) {
-  const auto stored = nodes_[index].disk.logs();
   for (Posted& posted : posted_) {
-    if (posted.from != index) continue;
-    const bool kept = std::any_of(stored.begin(), stored.end(), [&](const auto& log) {
-      return log.id == posted.log && log.seen.contains(posted.number);
-    });
-    if (!kept || disk) posted.excused = true;
+    if (posted.from != index && nodes_[posted.from].replication) continue;
+    bool kept = false;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (disk && i == index) continue;
+      const auto logs = nodes_[i].disk.logs();
+      kept = kept || std::any_of(logs.begin(), logs.end(), [&](const auto& log) {
+               return log.id == posted.log && log.seen.contains(posted.number);
+             });
+    }
+    if (!kept) posted.excused = true;
   }
 }
 

@@ -37,7 +37,6 @@ class Scenario {
   void plan_strangers();
   void plan_messages();
   void heal();
-  std::uint64_t said_bytes();
 
   std::uint32_t nodes() { return static_cast<std::uint32_t>(fleet_.size()); }
 
@@ -239,19 +238,6 @@ void Scenario::heal() {
   }
 }
 
-std::uint64_t Scenario::said_bytes() {
-  std::uint64_t bytes = 0;
-  for (std::size_t i = 0; i < fleet_.size(); ++i) {
-    const auto& counts = fleet_.mesh().node(i).endpoint->counts();
-    for (const auto of : {mesh::SentClass::kTelemetry, mesh::SentClass::kControlParcel,
-                          mesh::SentClass::kMessageParcel, mesh::SentClass::kFresh,
-                          mesh::SentClass::kBacklog, mesh::SentClass::kGroup}) {
-      bytes += counts[of].bytes;
-    }
-  }
-  return bytes;
-}
-
 Outcome Scenario::run() {
   set_links(false);
   for (std::size_t i = 0; i < fleet_.size(); ++i) {
@@ -282,10 +268,13 @@ Outcome Scenario::run() {
   outcome.failures = fleet_.failures();
   if (lacking) outcome.failures.push_back("after heal and quiet: " + *lacking);
   for (const auto& failure : fleet_.mesh().ledger().failures()) outcome.failures.push_back(failure);
-  fleet_.mesh().run_until(fleet_.now() + seconds(40));
-  const std::uint64_t before = said_bytes();
+  if (const auto beyond = fleet_.beyond_bounds()) outcome.failures.push_back(*beyond);
+  outcome.packets = fleet_.packets();
+  // On slow links the last announcements and their repetitions take longer.
+  fleet_.mesh().run_until(fleet_.now() + seconds(rate_bit_s_ < 100e3 ? 100 : 40));
+  const std::uint64_t before = fleet_.said_bytes();
   fleet_.mesh().run_until(fleet_.now() + seconds(60));
-  outcome.quiet_bytes = said_bytes() - before;
+  outcome.quiet_bytes = fleet_.said_bytes() - before;
   outcome.story = story_.str();
   outcome.loss = loss_;
   outcome.near = near_;
