@@ -192,7 +192,8 @@ constexpr std::array kRootKeys{
     RootKey{"mesh.group_loop", "Other nodes on this host hear what goes to the whole fleet, too.",
             Takes::kRestart, [](Config& c) -> Slot { return &c.mesh.group_loop; }},
     RootKey{"mesh.shutdown_s",
-            "At shutdown, what neighbours have not got yet is sent for at most so long, seconds.",
+            "At shutdown, what neighbours have not got yet is sent for at most so long, seconds. "
+            "The store is waited for in any case, for up to 5 s.",
             Takes::kRestart,
             [](Config& c) -> Slot { return &c.mesh.shutdown_s; },
             {0.0, 600.0}},

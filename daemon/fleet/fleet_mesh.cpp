@@ -172,7 +172,7 @@ void FleetMesh::turn() {
   take_items();
   desk_.settle();
   if (runner_) runner_->run();
-  if (drained_ && (now >= drain_until_ || is_drained())) {
+  if (drained_ && is_drained(now)) {
     stop();
     return std::exchange(drained_, nullptr)();
   }
@@ -234,7 +234,7 @@ void FleetMesh::wait() {
   const MeshTime now = MeshRunner::now();
   MeshTime until = std::min(replication_.next_deadline(), members_told_ + kMembersEvery);
   if (!storing_ && has_unstored()) until = std::min(until, committed_ + kBetweenCommits);
-  if (drained_) until = std::min({until, now + kLookWhileDraining, drain_until_});
+  if (drained_) until = std::min(until, now + kLookWhileDraining);
   timer_.expires_at(std::max(until, now + Duration(1000)));
   timer_.async_wait([this](std::error_code cancelled) {
     if (!cancelled) turn();

@@ -72,6 +72,7 @@ class FleetMesh {
  private:
   static constexpr Duration kBetweenCommits = std::chrono::milliseconds(50);
   static constexpr Duration kAfterRefusal = std::chrono::seconds(5);
+  static constexpr Duration kStoreLast = std::chrono::seconds(5);  // beyond drain()'s time
   struct Told {
     Revision revision;
     std::uint32_t pose = 0;
@@ -94,7 +95,7 @@ class FleetMesh {
   void speak(MeshTime now);
   std::optional<NodeStatus::Layer> stored_layer();
   void watch_conflicts();
-  bool is_drained() const;
+  bool is_drained(MeshTime now) const;
   void wait();
 
   void fill_self(FleetReport& report);

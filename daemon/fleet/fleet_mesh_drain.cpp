@@ -26,14 +26,17 @@ bool lacks(const replication::Subscription& subscription, const replication::Hel
 
 void FleetMesh::drain(Duration at_most, std::function<void()> done) {
   drain_until_ = MeshRunner::now() + at_most;
+  committed_ = std::min(committed_, MeshRunner::now() - kBetweenCommits);
   drained_ = std::move(done);
   speak(MeshRunner::now());
   desk_.on_ticked(MeshRunner::now(), wall_clock_us(), true);
   turn_soon();
 }
 
-bool FleetMesh::is_drained() const {
-  if (storing_ || has_unstored()) return false;
+// Whatever neighbours lack, what this node knows is stored, if the disk takes it.
+bool FleetMesh::is_drained(MeshTime now) const {
+  if (storing_ || has_unstored()) return now >= drain_until_ + kStoreLast;
+  if (now >= drain_until_) return true;
   const auto& layers = replication_.book().layers();
   for (const auto& [id, peer] : replication_.peers()) {
     if (!peer.up) continue;

@@ -131,6 +131,38 @@ TEST_CASE("what a store refused it takes the next time, with what came before st
   CHECK(store.results == std::vector(2, BatchResult::kStored));
 }
 
+TEST_CASE("at the end all is stored, though no neighbour is waited for") {
+  Node node;
+  node.tick(test::changes_of({test::floor_block({0, 0, 0}, 1)}));
+  node.run_until_written(1);
+  // The store has not answered yet when this comes.
+  node.tick(test::changes_of({test::floor_block({0, 1, 0}, 1)}));
+  bool done = false;
+  std::size_t written = 0;
+  node.mesh.drain(Duration{0}, [&] {
+    done = true;
+    written = node.store.batches.size();
+  });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!done && std::chrono::steady_clock::now() < end) node.io.run_one_until(end);
+  REQUIRE(done);
+  REQUIRE(written >= 2);
+  CHECK(node.store.batches[1].layers.at(0).head.holdings == Holdings({2}));
+}
+
+TEST_CASE("a store that takes nothing is not waited for without end") {
+  Node node;
+  node.store.stores = false;
+  node.tick(test::changes_of({test::floor_block({0, 0, 0}, 1)}));
+  bool done = false;
+  const auto begin = std::chrono::steady_clock::now();
+  node.mesh.drain(Duration{0}, [&] { done = true; });
+  while (!done && std::chrono::steady_clock::now() < begin + std::chrono::seconds(60)) {
+    node.io.run_one_for(std::chrono::seconds(1));
+  }
+  CHECK(done);
+}
+
 TEST_CASE("a pose is stored once, and again where the store refused it") {
   Node node;
   LayerChanges changes = test::changes_of({test::floor_block({0, 0, 0}, 1)});
