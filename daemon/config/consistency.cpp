@@ -86,6 +86,14 @@ void check_mesh(const MeshSettings& mesh, FaultList& faults) {
   }
 }
 
+// Robots count on it to have everything.
+void check_share(const Config& config, FaultList& faults) {
+  const bool is_base = config.node.role == Role::kBase;
+  if (is_base && config.share.policy != SharePolicyChoice::kEverything) {
+    faults.add("share.policy", "a base holds everything: leave it out, or let node.role be robot");
+  }
+}
+
 }  // namespace
 
 void check_consistency(const Config& config, FaultList& faults) {
@@ -94,6 +102,7 @@ void check_consistency(const Config& config, FaultList& faults) {
   check_sockets(config.sockets, faults);
   check_sensors(config, faults);
   check_mesh(config.mesh, faults);
+  check_share(config, faults);
 }
 
 }  // namespace warren

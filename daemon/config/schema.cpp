@@ -200,7 +200,7 @@ constexpr std::array kRootKeys{
     RootKey{"share.policy",
             "Which layers of others are copied here. everything: all of them, also for those who "
             "cannot hear each other; near: what lies within radius_m of this node; nothing: where "
-            "others are, but not what they mapped.",
+            "others are, but not what they mapped. A base holds everything.",
             Takes::kRestart,
             [](Config& c) -> Slot { return choice(c.share.policy); },
             {},

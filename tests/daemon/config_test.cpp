@@ -159,6 +159,17 @@ TEST_CASE("a base has no sensors, and needs to name none") {
               "robot.yaml:2: sensors: a base has none: leave them out, or let node.role be robot");
 }
 
+TEST_CASE("a base holds everything, a robot what its policy says") {
+  for (const std::string policy : {"near", "nothing"}) {
+    const std::string share = "share: {policy: " + policy + "}\n";
+    CHECK(faults_of(share).empty());
+    check_fault("node: {role: base}\n" + share,
+                "robot.yaml:2: share.policy: a base holds everything: leave it out, or let "
+                "node.role be robot");
+  }
+  CHECK(faults_of("node: {role: base}\nshare: {policy: everything}\n").empty());
+}
+
 TEST_CASE("the mesh is off until an interface is named, and interfaces are checked one by one") {
   CHECK_FALSE(Config{}.mesh.is_on());
   const auto config = parse_config(
