@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/log.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+
+#include "daemon/printable.hpp"
 
 namespace warren {
 namespace {
@@ -44,9 +45,7 @@ void write(LogLevel level, char priority, std::string_view message) {
   const auto spdlog_level = level_of(level);
   if (!logger().should_log(spdlog_level)) return;
   std::string line = journal ? std::string{'<', priority, '>'} : std::string{};
-  line.append(message);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  line.append(printable(message));
   logger().log(spdlog_level, line);
 }
 

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/printable.hpp"
 #include "tools/warrenctl/ask.hpp"
 #include "warren/control.pb.h"
 
@@ -42,15 +43,6 @@ std::string time_of_day(std::int64_t us) {
   localtime_r(&seconds, &local);
   std::array<char, 16> text{};
   return {text.data(), std::strftime(text.data(), text.size(), "%H:%M:%S", &local)};
-}
-
-// It goes to a terminal, and anybody of the fleet may have written it.
-std::string printable(const std::string& content) {
-  std::string text = content;
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  }
-  return text;
 }
 
 void print(const control::ReceivedMessage& message, bool json) {
