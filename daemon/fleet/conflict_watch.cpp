@@ -15,6 +15,11 @@ Eigen::Vector3d centre_of(const VoxelKey& block_low, std::uint32_t place, double
 
 }  // namespace
 
+ConflictLevel level_of(double score) {
+  if (score >= ConflictWatch::kQuarantine) return ConflictLevel::kMisleading;
+  return score >= ConflictWatch::kAlign ? ConflictLevel::kAskew : ConflictLevel::kAligned;
+}
+
 std::optional<LayerId> ConflictWatch::advance(FleetMap& map) {
   if (map.own_layers().empty()) return std::nullopt;
   const Replica* layer = at_ ? map.loaded().replica(*at_) : nullptr;

@@ -11,6 +11,10 @@
 
 namespace warren {
 
+// What a score says of the layer: it lies where it belongs, lies askew, or misleads.
+enum class ConflictLevel : std::uint8_t { kAligned, kAskew, kMisleading };
+ConflictLevel level_of(double score);
+
 // How far the layers of others contradict what this node measured: of their obstacles where it
 // knows something itself, the share that it knows as free. Aligned maps have about 0.02; 0.2
 // m aside 0.14, half a metre 0.40. Looks at a few regions of one layer at a time, so a score is

@@ -164,6 +164,7 @@ void FleetMesh::turn() {
   if (now >= members_told_ + kMembersEvery) {
     members_told_ = now;
     if (runner_) replication_.on_members(runner_->endpoint().members());
+    watch_own_name();
   }
   commit(now);
   replication_.advance(now);

@@ -22,6 +22,7 @@
 #include "daemon/fleet/restored_node.hpp"
 #include "daemon/fleet/self_backlog.hpp"
 #include "daemon/fleet/store_port.hpp"
+#include "daemon/log_throttle.hpp"
 #include "daemon/replication/replication.hpp"
 #include "transport/udp/mesh_runner.hpp"
 
@@ -95,6 +96,7 @@ class FleetMesh {
   void speak(MeshTime now);
   std::optional<NodeStatus::Layer> stored_layer();
   void watch_conflicts();
+  void watch_own_name();
   bool is_drained(MeshTime now) const;
   void wait();
 
@@ -120,9 +122,11 @@ class FleetMesh {
   OwnWord word_;
   FleetDesk desk_;
   ConflictWatch conflicts_;
-  std::map<LayerId, int> conflict_levels_;  // as they were warned about
-  std::map<std::uint32_t, Told> told_;      // by number of own layers
-  std::size_t adopted_ = 0;                 // layers of the book that were looked at
+  LogThrottle own_name_throttle_{1};
+  std::uint64_t own_member_came_ = 0;                 // packets of another node of this name
+  std::map<LayerId, ConflictLevel> conflict_levels_;  // as of the last round
+  std::map<std::uint32_t, Told> told_;                // by number of own layers
+  std::size_t adopted_ = 0;                           // layers of the book that were looked at
   MeshTime members_told_{};
   bool turn_posted_ = false;
   bool storing_ = false;

@@ -2,10 +2,8 @@
 // What FleetMesh tells of itself.
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include "daemon/fleet/fleet_mesh.hpp"
-#include "daemon/log.hpp"
 
 namespace warren {
 namespace {
@@ -165,21 +163,6 @@ FleetNodeReport& FleetMesh::node_of(FleetReport& report, MemberId member) const 
     node.name = known->status.name;
   }
   return node;
-}
-
-void FleetMesh::watch_conflicts() {
-  const auto judged = conflicts_.advance(map_);
-  if (!judged) return;
-  const double score = *conflicts_.score(*judged);
-  const int level = score >= ConflictWatch::kQuarantine ? 2
-                    : score >= ConflictWatch::kAlign    ? 1
-                                                        : 0;
-  const int before = std::exchange(conflict_levels_[*judged], level);
-  if (level <= before) return;
-  log_warning(
-      "fleet: a map of " + name_of({judged->origin}) + " contradicts this node's own: " +
-      std::to_string(static_cast<int>(100.0 * score)) + " % of its obstacles are free here; " +
-      (level == 2 ? "retract it, or move it where it belongs" : "move it where it belongs"));
 }
 
 const Replica* FleetMesh::newest_copy_of(const std::string& name) const {

@@ -44,6 +44,14 @@ TEST_CASE(
   CHECK(score_of(watch, fleet, id) == 0.0);
 }
 
+TEST_CASE("a layer a little off lies askew, one far off misleads") {
+  CHECK(level_of(0.02) == ConflictLevel::kAligned);
+  CHECK(level_of(0.10) == ConflictLevel::kAskew);
+  CHECK(level_of(0.14) == ConflictLevel::kAskew);
+  CHECK(level_of(0.25) == ConflictLevel::kMisleading);
+  CHECK(level_of(0.40) == ConflictLevel::kMisleading);
+}
+
 TEST_CASE("where both know too little of the same places there is no score") {
   FleetMap fleet = fleet_map();
   ConflictWatch watch;

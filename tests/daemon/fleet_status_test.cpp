@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fleet's status says of nodes that are far, of maps that contradict, and of a name that
+// is there twice.
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "tests/daemon/captured_log.hpp"
+#include "tests/daemon/loopback_fleet.hpp"
+
+namespace warren {
+namespace {
+
+void wait_until_logged(const CapturedLog& log, const std::string& text) {
+  for (int i = 0; i < 600 && log.text().find(text) == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  CAPTURE(log.text());
+  CHECK(log.text().find(text) != std::string::npos);
+}
+
+auto contradicts(const std::string& name) {
+  return [name](const control::FleetStatus& status) {
+    const control::FleetNode* const node = node_named(status, name);
+    return node != nullptr && node->layers_size() == 1 && node->layers(0).has_conflict();
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a map that lies askew is told and warned of, and the own map stays as it is") {
+  Loopback fleet;
+  RunningDaemon robot(fleet.config("robot-1", 1, {}));
+  Config config = fleet.config("robot-2", 2, {1});
+  config.node.fleet_T_map.x_m = -0.5;  // its wall stands in the free space before ours
+  RunningDaemon askew(config);
+  RunningDaemon aligned(fleet.config("robot-3", 3, {1}));
+  const CapturedLog log;
+  take_scans(robot, 1, 3);
+  const std::string published = settled(robot, 3).publishing().digest();
+  take_scans(askew, 1, 3);
+  take_scans(aligned, 1, 3);
+  const double far_off =
+      node_named(wait_for(robot, contradicts("robot-2")), "robot-2")->layers(0).conflict();
+  CHECK(far_off > 0.25);
+  const double near =
+      node_named(wait_for(robot, contradicts("robot-3")), "robot-3")->layers(0).conflict();
+  CHECK(near < 0.1);
+  wait_until_logged(log, "a map of robot-2 contradicts this node's own");
+  CHECK(log.text().find("retract it") != std::string::npos);
+  CHECK(log.text().find("robot-3") == std::string::npos);
+  CHECK(robot.status().publishing().digest() == published);
+}
+
+TEST_CASE("a name that another node has as well is warned of once a minute") {
+  Loopback fleet;
+  RunningDaemon one(fleet.config("robot-1", 1, {2}));
+  RunningDaemon other(fleet.config("robot-1", 2, {1}));
+  const CapturedLog log;
+  wait_for(one, [](const control::FleetStatus& status) {
+    return count_named(status.unused(), "own_member") > 1;
+  });
+  const std::string warning = "another node is called robot-1 as well";
+  wait_until_logged(log, warning);
+  const std::string text = log.text();
+  std::size_t lines = 0;
+  for (auto at = text.find(warning); at != std::string::npos; at = text.find(warning, at + 1)) {
+    ++lines;
+  }
+  CHECK(lines <= 2);  // one of each
+}
+
+}  // namespace warren
