@@ -45,6 +45,8 @@ void fill(const FleetReport& report, const FleetLayerReport& layer, control::Fle
   message.set_resolution_m(layer.resolution.metres());
   message.set_held_everywhere(layer.held_everywhere.number);
   message.set_held_somewhere(layer.held_somewhere.number);
+  message.set_held_wanted(layer.held_wanted.number);
+  if (layer.within_m) message.set_within_m(*layer.within_m);
   message.set_latest(layer.latest.number);
   message.set_lag_revisions(layer.lag_revisions());
   if (const auto lag_s = layer.lag_s()) message.set_lag_s(*lag_s);
@@ -69,6 +71,8 @@ void fill(const FleetReport& report, const FleetNodeReport& node, control::Fleet
   if (node.position_fleet) {
     for (const float coordinate : *node.position_fleet) message.add_position_fleet_m(coordinate);
   }
+  if (node.status_us) message.set_status_us(*node.status_us);
+  if (node.status_came_s) message.set_status_came_s(*node.status_came_s);
   if (node.neighbour) fill(node, *node.neighbour, *message.mutable_link());
   for (const FleetLayerReport& layer : node.layers) fill(report, layer, *message.add_layers());
 }

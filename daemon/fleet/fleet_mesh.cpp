@@ -146,8 +146,16 @@ std::string FleetMesh::name_of(MemberId member) const {
 }
 
 void FleetMesh::hear(MemberId from, std::span<const std::uint8_t> bytes) {
+  if (note_status(from, bytes)) status_came_[from] = MeshRunner::now();
+}
+
+bool FleetMesh::note_status(MemberId from, std::span<const std::uint8_t> bytes) {
   const auto status = read_node_status(bytes);
-  status ? (void)nodes_.note(from, *status) : (void)++unknown_statuses_;
+  if (!status) {
+    ++unknown_statuses_;
+    return false;
+  }
+  return nodes_.note(from, *status);
 }
 
 void FleetMesh::turn_soon() {

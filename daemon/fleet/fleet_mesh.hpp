@@ -92,7 +92,9 @@ class FleetMesh {
   void take_items();
   void adopt_copies();
   void take_poses(Replica& copy);
-  void hear(MemberId from, std::span<const std::uint8_t> status);
+  void hear(MemberId from, std::span<const std::uint8_t> bytes);
+  // True if it was news.
+  bool note_status(MemberId from, std::span<const std::uint8_t> bytes);
   void speak(MeshTime now);
   std::optional<NodeStatus::Layer> stored_layer();
   void watch_conflicts();
@@ -105,6 +107,7 @@ class FleetMesh {
   void fill_neighbours(FleetReport& report);
   void fill_layers(FleetReport& report) const;
   FleetLayerReport report_of(const replication::HeldLayer& held) const;
+  void fill_wanted(const replication::HeldLayer& held, FleetLayerReport& report) const;
   FleetNodeReport& node_of(FleetReport& report, MemberId member) const;
 
   asio::io_context& io_;
@@ -119,6 +122,7 @@ class FleetMesh {
   std::optional<NodeStatus::Layer> stored_layer_;  // as this node told of it last
   asio::steady_timer timer_;
   NodeBook nodes_;
+  std::map<MemberId, MeshTime> status_came_;  // of these nodes, since the start
   OwnWord word_;
   FleetDesk desk_;
   ConflictWatch conflicts_;

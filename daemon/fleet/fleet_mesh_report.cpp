@@ -39,6 +39,15 @@ Newest newest_of(const LayerId& layer, const NodeBook::Node* writer,
   return newest;
 }
 
+// Over these keys alone; there are some.
+Revision lowest_of(const Holdings& holdings, const replication::KeySet& keys) {
+  Revision lowest = holdings.lowest(keys.intervals.front());
+  for (const KeyInterval& interval : keys.intervals) {
+    lowest = std::min(lowest, holdings.lowest(interval));
+  }
+  return lowest;
+}
+
 }  // namespace
 
 std::optional<double> FleetLayerReport::lag_s() const {
@@ -54,6 +63,10 @@ FleetReport FleetMesh::report() {
     FleetNodeReport& of = node_of(report, member);
     of.role = node.status.role;
     of.position_fleet = node.status.position_fleet;
+    of.status_us = node.status.time_us;
+    const auto came = status_came_.find(member);
+    if (came == status_came_.end()) continue;
+    of.status_came_s = std::chrono::duration<double>(MeshRunner::now() - came->second).count();
   }
   fill_neighbours(report);
   fill_layers(report);
@@ -125,6 +138,7 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
   report.held_everywhere = replica.holdings().lowest({});
   report.held_somewhere = replica.holdings().highest({});
   report.full = held.full;
+  fill_wanted(held, report);
   const Newest newest = newest_of(held.id, writer, replication_.peers());
   report.latest = std::max(newest.revision, report.held_somewhere);
   if (newest.digest && report.latest == newest.revision &&
@@ -132,10 +146,10 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
     report.digest_equal = replication::prefix_of(replica.digest().root()) == *newest.digest;
   }
   if (writer != nullptr && writer->status.layer && writer->status.layer->id == held.id) {
-    report.up_to_us = writer->revisions.time_of(report.held_everywhere);
+    report.up_to_us = writer->revisions.time_of(report.held_wanted);
     report.latest_us = writer->revisions.time_of(report.latest);
     const std::uint64_t known = writer->status.layer->known_voxels;
-    report.lag_voxels = known - std::min(known, replica.known_voxels());
+    if (!report.within_m) report.lag_voxels = known - std::min(known, replica.known_voxels());
   }
   if (const replication::Pull* const pull = replication_.pull_of(held.id)) {
     report.provider = pull->provider;
@@ -149,6 +163,17 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
     report.unplaced = loaded->unplaced;
   }
   return report;
+}
+
+// Where nothing is wanted, before this node knows where it is, no less than all counts.
+void FleetMesh::fill_wanted(const HeldLayer& held, FleetLayerReport& report) const {
+  report.held_wanted = report.held_everywhere;
+  const replication::SharePolicy& share = config_.replication.share;
+  const replication::Pull* const pull = replication_.pull_of(held.id);
+  if (share.share != replication::Share::kNear || pull == nullptr) return;
+  if (pull->keys.intervals.empty()) return;
+  report.held_wanted = lowest_of(held.replica().holdings(), pull->keys);
+  report.within_m = share.radius_m;
 }
 
 FleetNodeReport& FleetMesh::node_of(FleetReport& report, MemberId member) const {

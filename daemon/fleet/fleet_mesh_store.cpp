@@ -24,7 +24,7 @@ void FleetMesh::restore(StoredFleet stored) {
   for (const replication::StoredLog& log : stored.logs) {
     for (const auto& [number, item] : log.items) {
       if (item && item->kind == replication::ItemKind::kStatus) {
-        hear(MemberId{log.id.origin}, item->bytes);
+        (void)note_status(MemberId{log.id.origin}, item->bytes);
       }
     }
   }

@@ -26,8 +26,10 @@ struct FleetLayerReport {
   Resolution resolution;
   Revision held_everywhere;                 // the lowest over all keys
   Revision held_somewhere;                  // the highest
+  Revision held_wanted;                     // the lowest over the keys that are wanted here
+  std::optional<double> within_m;           // these lie so near to this node; nothing: all
   Revision latest;                          // that its writer is known to have made
-  std::optional<std::int64_t> up_to_us;     // when held_everywhere was made, by its writer's clock
+  std::optional<std::int64_t> up_to_us;     // when held_wanted was made, by its writer's clock
   std::optional<std::int64_t> latest_us;    // the same of `latest`
   std::optional<std::uint64_t> lag_voxels;  // that its writer knew at last and this copy does not
   // Of the content at `latest`: nothing while not all is held, or its writer has not told.
@@ -42,7 +44,7 @@ struct FleetLayerReport {
   std::optional<double> conflict;  // share of its obstacles that the own map knows as free
 
   std::uint32_t lag_revisions() const {
-    return latest > held_everywhere ? latest.number - held_everywhere.number : 0;
+    return latest > held_wanted ? latest.number - held_wanted.number : 0;
   }
   std::optional<double> lag_s() const;
 };
@@ -53,6 +55,8 @@ struct FleetNodeReport {
   std::optional<NodeRole> role;
   bool is_self = false;
   std::optional<Eigen::Vector3f> position_fleet;
+  std::optional<std::int64_t> status_us;  // when it last said something of itself, by its clock
+  std::optional<double> status_came_s;    // ago, here; nothing: not since the start
   std::optional<mesh::Member> neighbour;  // who has been heard itself, in this boot of it
   double last_heard_s = 0.0;              // ago; of a neighbour
   std::string interface;

@@ -28,6 +28,54 @@ auto contradicts(const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("a node that others tell of is heard by its word, and not by what the store has of it") {
+  Loopback fleet;
+  Config base_config = fleet.config("base", 0, {2});
+  base_config.store.file = fleet.file("base.db");
+  std::int64_t said_us = 0;
+  {
+    RunningDaemon robot(fleet.config("robot-1", 1, {2}));
+    RunningDaemon relay(fleet.config("robot-2", 2, {}));
+    RunningDaemon base(base_config);
+    take_scans(robot, 1, 2);
+    const control::FleetStatus status = wait_for(base, has_all_of("robot-1"));
+    const control::FleetNode& node = *node_named(status, "robot-1");
+    CHECK_FALSE(node.has_link());
+    CHECK(node.has_status_came_s());
+    CHECK(node_named(status, "robot-2")->has_status_came_s());
+    said_us = node.status_us();
+    CHECK(said_us > 0);
+  }
+  RunningDaemon base(base_config);
+  const control::FleetStatus status = fleet_status(base);
+  const control::FleetNode* const node = node_named(status, "robot-1");
+  REQUIRE(node != nullptr);
+  CHECK(node->status_us() >= said_us);
+  CHECK_FALSE(node->has_status_came_s());
+  CHECK(node->layers_size() == 1);
+}
+
+TEST_CASE("who copies what is near has all when it has that") {
+  Loopback fleet;
+  RunningDaemon robot(fleet.config("robot-1", 1, {}));
+  Config config = fleet.config("robot-2", 2, {1});
+  config.share = {SharePolicyChoice::kNear, 1.0};
+  config.node.fleet_T_map.x_m = 5.0;
+  RunningDaemon near(config);
+  take_scans(robot, 1, 2);
+  take_scans(near, 1, 1);
+  const control::FleetStatus status = wait_for(near, [](const control::FleetStatus& now) {
+    const control::FleetNode* const node = node_named(now, "robot-1");
+    return node != nullptr && node->layers_size() == 1 && node->layers(0).has_within_m() &&
+           node->layers(0).latest() > 0 && node->layers(0).lag_revisions() == 0;
+  });
+  const control::FleetLayer& layer = node_named(status, "robot-1")->layers(0);
+  CHECK(layer.within_m() == 1.0);
+  CHECK(layer.held_wanted() == layer.latest());
+  CHECK(layer.held_everywhere() < layer.latest());
+  CHECK_FALSE(layer.has_lag_voxels());
+}
+
 TEST_CASE("a map that lies askew is told and warned of, and the own map stays as it is") {
   Loopback fleet;
   RunningDaemon robot(fleet.config("robot-1", 1, {}));

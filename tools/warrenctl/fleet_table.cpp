@@ -41,8 +41,29 @@ std::string lag_of(const control::FleetLayer& layer) {
   if (layer.own()) return "-";
   if (layer.lag_revisions() == 0) return "0";
   std::string text = std::to_string(layer.lag_revisions()) + " rev";
-  if (layer.has_lag_voxels()) text += ", " + std::to_string(layer.lag_voxels()) + " voxels";
   if (layer.has_lag_s()) text += ", " + fixed(layer.lag_s(), 1) + " s";
+  return text;
+}
+
+std::string kilobytes(std::uint64_t bytes) {
+  const double number = static_cast<double>(bytes) * 1e-3;
+  return bytes == 0 ? "0" : fixed(number, number < 9.95 ? 1 : 0);
+}
+
+// What is new, and what was caught up with.
+std::string map_bytes(const control::MapTraffic& traffic) {
+  return kilobytes(traffic.fresh_bytes()) + "+" + kilobytes(traffic.backlog_bytes());
+}
+
+std::string what_lacks(const control::FleetLayer& layer) {
+  std::string text;
+  if (!layer.provider().empty()) {
+    text = "comes from " + layer.provider();
+  } else {
+    text = layer.hops() < kNoWay ? "waits" : "nobody here has more";
+  }
+  if (layer.has_up_to_us()) text += ", up to " + time_of_day(layer.up_to_us());
+  if (layer.lag_voxels() > 0) text += ", " + std::to_string(layer.lag_voxels()) + " voxels fewer";
   return text;
 }
 
@@ -52,13 +73,12 @@ std::string state_of(const control::FleetNode& node, const control::FleetLayer& 
   std::string text;
   if (layer.lag_revisions() == 0 && layer.latest() > 0) {
     text = "has all of " + name_of(node);
+    if (layer.has_within_m()) text += " within " + fixed(layer.within_m(), 0) + " m";
     if (layer.has_up_to_us()) text += " up to " + time_of_day(layer.up_to_us());
     if (layer.has_digest_equal())
       text += layer.digest_equal() ? ", digest equal" : ", DIGEST DIFFERS";
-  } else if (!layer.provider().empty()) {
-    text = "comes from " + layer.provider();
   } else {
-    text = layer.hops() < kNoWay ? "waits" : "nobody here has more";
+    text = what_lacks(layer);
   }
   if (layer.retracted_by_fleet()) text += "; retracted everywhere";
   if (layer.retracted() && !layer.retracted_by_fleet()) text += "; retracted";
@@ -69,15 +89,27 @@ std::string state_of(const control::FleetNode& node, const control::FleetLayer& 
   return text;
 }
 
+// Of what comes by others its writer's time counts: it may have been long on its way.
+Row unlinked_cells(const control::FleetNode& node) {
+  const bool heard = node.has_status_came_s();
+  return {heard ? "by others" : "not since start",
+          "-",
+          "-",
+          "-",
+          node.has_status_us() ? time_of_day(node.status_us()) : "-",
+          "-"};
+}
+
 Row link_cells(const control::FleetNode& node) {
-  if (node.is_self()) return {"this node", "-", "-", "-", "-"};
-  if (!node.has_link()) return {"by others", "-", "-", "-", "-"};
+  if (node.is_self()) return {"this node", "-", "-", "-", "-", "-"};
+  if (!node.has_link()) return unlinked_cells(node);
   const control::FleetLink& link = node.link();
   return {link.up() ? link.interface() : "silent",
           link.has_rtt_ms() ? fixed(link.rtt_ms(), 0) : "-",
           fixed(100.0 * link.loss_out(), 0) + "/" + fixed(100.0 * link.loss_in(), 0),
           link.rate_kbit_s() > 0.0 ? fixed(link.rate_kbit_s(), 0) : "-",
-          fixed(link.last_heard_s(), 1) + " s"};
+          fixed(link.last_heard_s(), 1) + " s",
+          map_bytes(link.received()) + "/" + map_bytes(link.sent())};
 }
 
 Row node_cells(const control::FleetNode& node) {
@@ -88,17 +120,18 @@ Row node_cells(const control::FleetNode& node) {
 }
 
 std::vector<Row> rows_of(const control::FleetStatus& status) {
-  std::vector<Row> rows{{"node", "role", "link", "rtt ms", "loss %", "kbit/s", "heard", "layer",
-                         "revision", "lag", "state"}};
+  std::vector<Row> rows{{"node", "role", "link", "rtt ms", "loss %", "kbit/s", "heard", "kB in/out",
+                         "layer", "revision", "lag", "state"}};
+  const std::size_t node_columns = 8;
   for (const auto& node : status.nodes()) {
     Row row = node_cells(node);
     for (const auto& layer : node.layers()) {
       row.push_back(std::to_string(layer.layer().number()));
-      row.push_back(std::to_string(layer.held_everywhere()));
+      row.push_back(std::to_string(layer.held_wanted()));
       if (!layer.own()) row.back().append("/").append(std::to_string(layer.latest()));
       row.push_back(lag_of(layer));
       row.push_back(state_of(node, layer));
-      rows.push_back(std::exchange(row, Row(7)));
+      rows.push_back(std::exchange(row, Row(node_columns)));
     }
     if (node.layers().empty()) rows.push_back(std::move(row));
   }
