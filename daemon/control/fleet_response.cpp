@@ -114,22 +114,38 @@ void fill(const mesh::EndpointCounts& counts, control::FleetStatus& status) {
   status.set_ip_bytes_out(counts.ip_bytes_out);
 }
 
-void fill_refused(const FleetReport& report, Counts& refused) {
-  add_count("malformed_announcements", report.refused.malformed_announcements, refused);
-  add_count("changed_slots", report.refused.changed_slots, refused);
-  add_count("malformed_messages", report.refused.malformed_messages, refused);
-  add_count("unknown_slots", report.refused.unknown_slots, refused);
-  add_count("other_resolution", report.refused.other_resolution, refused);
-  add_count("stale_wishes", report.refused.stale_wishes, refused);
-  add_count("gaps", report.refused.gaps, refused);
-  add_count("peers_refused", report.refused.peers_refused, refused);
-  add_count("telemetry_refused", report.telemetry_refused, refused);
-  add_count("copies_not_merged", report.copies_refused, refused);
-  add_count("unknown_statuses", report.unknown_statuses, refused);
-  add_count("messages_unreadable", report.messages_unreadable, refused);
-  add_count("messages_dropped", report.messages_dropped, refused);
-  add_count("orders_refused", report.orders_refused, refused);
-  add_count("orders_unauthorised", report.orders_unauthorised, refused);
+void fill_refused(const replication::RefusedCounts& by_replication, Counts& refused) {
+  add_count("malformed_announcements", by_replication.malformed_announcements, refused);
+  add_count("changed_slots", by_replication.changed_slots, refused);
+  add_count("malformed_messages", by_replication.malformed_messages, refused);
+  add_count("unknown_slots", by_replication.unknown_slots, refused);
+  add_count("other_resolution", by_replication.other_resolution, refused);
+  add_count("stale_wishes", by_replication.stale_wishes, refused);
+  add_count("gaps", by_replication.gaps, refused);
+  add_count("wishes_for_lost", by_replication.wishes_for_lost, refused);
+  add_count("peers_refused", by_replication.peers_refused, refused);
+}
+
+void fill_refused(const FleetRefusedCounts& counts, Counts& refused) {
+  fill_refused(counts.replication, refused);
+  add_count("layers_refused", counts.layers, refused);
+  add_count("packets_without_room", counts.packets_without_room, refused);
+  add_count("packets_for_own_layers", counts.packets_for_own_layers, refused);
+  add_count("logs_refused", counts.logs, refused);
+  add_count("log_messages_refused", counts.log_messages, refused);
+  add_count("own_items_refused", counts.own_items, refused);
+  add_count("items_dropped", counts.items_dropped, refused);
+  add_count("digests_differed", counts.digests.differences, refused);
+  add_count("regions_repaired", counts.digests.regions, refused);
+  add_count("repairs_given_up", counts.digests.given_up, refused);
+  add_count("telemetry_refused", counts.telemetry, refused);
+  add_count("copies_not_merged", counts.copies, refused);
+  add_count("unknown_statuses", counts.unknown_statuses, refused);
+  add_count("statuses_without_room", counts.statuses_without_room, refused);
+  add_count("messages_unreadable", counts.messages_unreadable, refused);
+  add_count("messages_dropped", counts.messages_dropped, refused);
+  add_count("orders_refused", counts.orders_refused, refused);
+  add_count("orders_unauthorised", counts.orders_unauthorised, refused);
 }
 
 }  // namespace
@@ -141,7 +157,7 @@ std::string encode_fleet_status(const FleetReport& report) {
   for (const FleetNodeReport& node : report.nodes) fill(report, node, *status.add_nodes());
   for (const auto& interface : report.interfaces) fill(interface, *status.add_interfaces());
   fill(report.endpoint, status);
-  fill_refused(report, *status.mutable_refused());
+  fill_refused(report.refused, *status.mutable_refused());
   status.set_memory_bytes(report.memory_bytes);
   status.set_batches_stored(report.batches_stored);
   status.set_batches_failed(report.batches_failed);

@@ -155,7 +155,9 @@ bool FleetMesh::note_status(MemberId from, std::span<const std::uint8_t> bytes) 
     ++unknown_statuses_;
     return false;
   }
-  return nodes_.note(from, *status);
+  const bool is_news = nodes_.note(from, *status);
+  if (nodes_.find(from) == nullptr) ++statuses_without_room_;
+  return is_news;
 }
 
 void FleetMesh::turn_soon() {

@@ -103,6 +103,7 @@ class FleetMesh {
   void wait();
 
   void fill_self(FleetReport& report);
+  void fill_refused(FleetRefusedCounts& refused);
   void fill_interfaces(FleetReport& report);
   void fill_neighbours(FleetReport& report);
   void fill_layers(FleetReport& report) const;
@@ -142,6 +143,7 @@ class FleetMesh {
   std::uint64_t telemetry_refused_ = 0;
   std::uint64_t copies_refused_ = 0;
   std::uint64_t unknown_statuses_ = 0;
+  std::uint64_t statuses_without_room_ = 0;
 };
 
 }  // namespace warren

@@ -79,19 +79,39 @@ void FleetMesh::fill_self(FleetReport& report) {
   node_of(report, config_.replication.self).is_self = true;
   report.nodes.front().role = config_.role;
   if (runner_) fill_interfaces(report);
-  report.refused = replication_.refused();
-  report.telemetry_refused = telemetry_refused_;
-  report.copies_refused = copies_refused_;
-  report.unknown_statuses = unknown_statuses_;
-  report.messages_unreadable = desk_.messages().unreadable();
-  report.messages_dropped = desk_.messages().dropped();
-  report.orders_refused = desk_.orders().refused();
-  report.orders_unauthorised = desk_.orders().unauthorised();
+  fill_refused(report.refused);
   report.memory_bytes = replication_.memory_bytes();
   if (runner_) report.memory_bytes += runner_->endpoint().memory_bytes();
   report.batches_stored = batches_stored_;
   report.batches_failed = batches_failed_;
   report.storing = storing_;
+}
+
+void FleetMesh::fill_refused(FleetRefusedCounts& refused) {
+  refused.replication = replication_.refused();
+  const replication::LayerBook& layers = replication_.book();
+  refused.layers = layers.layers_refused();
+  refused.packets_without_room = layers.refused(replication::Refusal::kNoRoom);
+  refused.packets_for_own_layers = layers.refused(replication::Refusal::kOwnLayer);
+  for (const auto& held : layers.layers()) {
+    const replication::WalkCounts walked = replication_.digests_of(held->slot);
+    refused.digests.differences += walked.differences;
+    refused.digests.regions += walked.regions;
+    refused.digests.given_up += walked.given_up;
+  }
+  const replication::LogBook& logs = replication_.logs().book();
+  refused.logs = logs.logs_refused();
+  refused.log_messages = replication_.logs().refused();
+  refused.own_items = logs.items_refused();
+  for (const auto& held : logs.logs()) refused.items_dropped += held->log.dropped();
+  refused.telemetry = telemetry_refused_;
+  refused.copies = copies_refused_;
+  refused.unknown_statuses = unknown_statuses_;
+  refused.statuses_without_room = statuses_without_room_;
+  refused.messages_unreadable = desk_.messages().unreadable();
+  refused.messages_dropped = desk_.messages().dropped();
+  refused.orders_refused = desk_.orders().refused();
+  refused.orders_unauthorised = desk_.orders().unauthorised();
 }
 
 void FleetMesh::fill_interfaces(FleetReport& report) {

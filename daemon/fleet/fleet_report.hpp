@@ -12,6 +12,7 @@
 #include "core/layer/resolution.hpp"
 #include "daemon/fleet/node_status.hpp"
 #include "daemon/replication/announcement.hpp"
+#include "daemon/replication/digest_walk.hpp"
 #include "daemon/replication/node_state.hpp"
 #include "daemon/replication/peer.hpp"
 #include "transport/endpoint/endpoint.hpp"
@@ -72,20 +73,34 @@ struct FleetInterfaceReport {
   mesh::SocketCounts counts;
 };
 
+// Of what others said or sent, what was not taken. The names that status gives them tell why.
+struct FleetRefusedCounts {
+  replication::RefusedCounts replication;
+  std::uint64_t layers = 0;                // of them so many are held already
+  std::uint64_t packets_without_room = 0;  // for copies that grow no more
+  std::uint64_t packets_for_own_layers = 0;
+  std::uint64_t logs = 0;                   // so many are held already
+  std::uint64_t log_messages = 0;           // announcements and wishes that cannot be used
+  std::uint64_t own_items = 0;              // our own log is full
+  std::uint64_t items_dropped = 0;          // of others' logs, for want of room
+  replication::WalkCounts digests;          // of all layers
+  std::uint64_t telemetry = 0;              // by the endpoint
+  std::uint64_t copies = 0;                 // by the merge-map
+  std::uint64_t unknown_statuses = 0;       // that could not be read
+  std::uint64_t statuses_without_room = 0;  // of nodes beyond those that are known
+  std::uint64_t messages_unreadable = 0;
+  std::uint64_t messages_dropped = 0;     // by the inbox, before anybody fetched them
+  std::uint64_t orders_refused = 0;       // that are none, or somebody else's
+  std::uint64_t orders_unauthorised = 0;  // of nodes that are no base now
+};
+
 struct FleetReport {
   bool mesh_on = false;
   std::vector<FleetNodeReport> nodes;  // this one first, then by name
   std::vector<FleetInterfaceReport> interfaces;
   mesh::EndpointCounts endpoint;
-  replication::RefusedCounts refused;
-  std::uint64_t telemetry_refused = 0;  // by the endpoint
-  std::uint64_t copies_refused = 0;     // by the merge-map
-  std::uint64_t unknown_statuses = 0;   // that could not be read
-  std::uint64_t messages_unreadable = 0;
-  std::uint64_t messages_dropped = 0;     // by the inbox, before anybody fetched them
-  std::uint64_t orders_refused = 0;       // that are none, or somebody else's
-  std::uint64_t orders_unauthorised = 0;  // of nodes that are no base now
-  std::size_t memory_bytes = 0;           // of replication and transport
+  FleetRefusedCounts refused;
+  std::size_t memory_bytes = 0;  // of replication and transport
   std::uint64_t batches_stored = 0;
   std::uint64_t batches_failed = 0;
   bool storing = false;  // a batch is under way

@@ -79,6 +79,7 @@ class Replication final : public mesh::MapSource {
   const LogExchange& logs() const { return logs_; }
   LogBook& log_book() { return logs_.book(); }
   const Pull* pull_of(const LayerId& layer) const;
+  WalkCounts digests_of(Slot slot) const { return walk_.counts_of(slot); }
   const std::map<MemberId, Peer>& peers() const { return node_.peers; }
   const RefusedCounts& refused() const { return node_.refused; }
   // How often a member said that it holds more of a layer of ours than we ever wrote: our store is
