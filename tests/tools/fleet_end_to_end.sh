@@ -266,6 +266,28 @@ case_messages_paths_and_orders_cross_the_fleet() { # robot-1 and the base do not
   for name in robot-1 robot-2 base; do stop_node "$name"; done
 }
 
+case_a_fleet_that_is_watched_is_shown_again_after_a_restart() {
+  shown() { [ "$(wc -l <"$work/watch.out")" -gt "$1" ]; } # LINES
+  start_node base 0
+  touch "$work/watch.out"
+  "$bin/warrenctl" --socket "$work/base.control" fleet status --watch --json \
+    >"$work/watch.out" 2>"$work/watch.err" &
+  pids[watch]=$!
+  wait_until "the fleet is shown twice" shown 1
+  stop_node base
+  wait_until "the end of the daemon is told" grep -q 'waiting for it' "$work/watch.err"
+  local lines
+  lines=$(wc -l <"$work/watch.out")
+  start_node base 0
+  wait_until "the fleet is shown again" shown "$lines"
+  kill_node watch
+  "$python" -c 'import json, sys
+for line in sys.stdin.read().split("\n")[:-1]: assert json.loads(line)["nodes"][0]["name"] == "base"' \
+    <"$work/watch.out" || fail "not an object per line: $(cat "$work/watch.out")"
+  [ "$(wc -l <"$work/watch.err")" -eq 1 ] || fail "told more than once: $(cat "$work/watch.err")"
+  stop_node base
+}
+
 case_a_fleet_shares_maps_over_bad_radios() {
   [ "$(id -u)" -eq 0 ] || { echo "SKIPPED: network namespaces need root"; exit 0; }
   [ -c /dev/net/tun ] || { echo "SKIPPED: there is no /dev/net/tun"; exit 0; }

@@ -225,7 +225,8 @@ CtlCommand parse(CLI::App& app, Options& options, int argc, char** argv) {
   auto* const fleet = app.add_subcommand("fleet", "The fleet")->require_subcommand(1);
   auto* const fleet_status = add_with_json(
       *fleet, "status", "Who is there, and how far their maps have come here", options);
-  fleet_status->add_flag("--watch", options.watch, "Again every second, until the daemon ends");
+  fleet_status->add_flag("--watch", options.watch,
+                         "Again every second, also after the daemon has restarted");
   FleetCli fleet_cli(app, *fleet);
   auto* const key = app.add_subcommand("key", "The fleet's key")->require_subcommand(1);
   auto* const key_new = key->add_subcommand("new", "Make one; every member needs a copy of it");

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <iostream>
 #include <numbers>
-#include <thread>
 
 #include "daemon/config_commands.hpp"
 #include "daemon/key_file.hpp"
@@ -13,6 +11,7 @@
 #include "tools/warrenctl/cli.hpp"
 #include "tools/warrenctl/failure.hpp"
 #include "tools/warrenctl/fleet_table.hpp"
+#include "tools/warrenctl/fleet_watch.hpp"
 #include "tools/warrenctl/layer_watch.hpp"
 #include "tools/warrenctl/loaded_layer.hpp"
 #include "tools/warrenctl/tables.hpp"
@@ -23,7 +22,6 @@ namespace {
 using namespace warren;
 
 constexpr int kExitFailure = 1;
-const std::string kClearScreen = "\x1b[H\x1b[2J";
 
 // Asks, then shows what `show` makes of the response.
 template <typename Show>
@@ -164,19 +162,13 @@ struct Executor {
     });
   }
   int operator()(const FleetStatusCommand& command) const {
+    if (command.watch) return watch_fleet(command.json, socket);
     control::Request request;
     request.mutable_fleet_status();
-    const auto show = [&](const control::Response& response) {
-      if (command.json) return json_of(response.fleet_status());
-      return (command.watch ? kClearScreen : "") + table_of(response.fleet_status());
-    };
-    int code = ask_and_show(socket, request, show);
-    while (command.watch && code == 0) {
-      std::cout << std::flush;
-      std::this_thread::sleep_for(std::chrono::seconds(1));
-      code = ask_and_show(socket, request, show);
-    }
-    return code;
+    return ask_and_show(socket, request, [&](const control::Response& response) {
+      const control::FleetStatus& status = response.fleet_status();
+      return command.json ? json_of(status) : table_of(status);
+    });
   }
   int operator()(const FleetCommand& command) const { return run(command, socket); }
   int operator()(const KeyNewCommand& command) const {

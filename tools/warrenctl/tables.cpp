@@ -96,6 +96,16 @@ void add_layers(std::ostream& out, const control::Status& status) {
   for (const auto& layer : status.loaded()) out << "  " << sentence_of(layer);
 }
 
+std::string printed_json(const google::protobuf::Message& message, bool add_whitespace) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  options.preserve_proto_field_names = true;
+  options.add_whitespace = add_whitespace;
+  std::string json;
+  const auto printed = google::protobuf::util::MessageToJsonString(message, &json, options);
+  return printed.ok() ? json : "{}";
+}
+
 }  // namespace
 
 std::string table_of(const control::Status& status) {
@@ -234,13 +244,11 @@ std::string sentence_of(const control::LayerFlushed& flushed) {
 }
 
 std::string json_of(const google::protobuf::Message& message) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.always_print_primitive_fields = true;
-  options.preserve_proto_field_names = true;
-  options.add_whitespace = true;
-  std::string json;
-  const auto printed = google::protobuf::util::MessageToJsonString(message, &json, options);
-  return printed.ok() ? json : "{}\n";
+  return printed_json(message, true);
+}
+
+std::string json_line_of(const google::protobuf::Message& message) {
+  return printed_json(message, false) + "\n";
 }
 
 }  // namespace warren

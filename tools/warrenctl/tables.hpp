@@ -33,5 +33,7 @@ std::string sentence_of(const control::LoadedLayer& layer);
 std::string sentence_of(const control::LayerFlushed& flushed);
 // Every field, by its name in the .proto; 64-bit integers are strings, as protobuf's JSON has them.
 std::string json_of(const google::protobuf::Message& message);
+// The same in one line.
+std::string json_line_of(const google::protobuf::Message& message);
 
 }  // namespace warren

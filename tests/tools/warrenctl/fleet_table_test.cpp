@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/warrenctl/fleet_table.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <sstream>
 
 #include <doctest/doctest.h>
 
+#include "tools/warrenctl/tables.hpp"
 #include "warren/control.pb.h"
 
 namespace warren {
@@ -108,6 +110,13 @@ TEST_CASE("a node that is not heard itself shows the time of its last word, if o
   CHECK(shown.has(" not since start "));
   CHECK(shown.has(" 12:31:07 "));
   CHECK_FALSE(shown.has("by others"));
+}
+
+TEST_CASE("a JSON object can have a line for itself") {
+  const std::string line = json_line_of(Shown().status);
+  CHECK(std::count(line.begin(), line.end(), '\n') == 1);
+  CHECK(line.back() == '\n');
+  CHECK(line.find("\"name\":\"robot-1\"") != std::string::npos);
 }
 
 }  // namespace warren
