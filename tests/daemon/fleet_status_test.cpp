@@ -105,11 +105,13 @@ TEST_CASE("a name that another node has as well is warned of once a minute") {
   RunningDaemon one(fleet.config("robot-1", 1, {2}));
   RunningDaemon other(fleet.config("robot-1", 2, {1}));
   const CapturedLog log;
-  wait_for(one, [](const control::FleetStatus& status) {
-    return count_named(status.unused(), "own_member") > 1;
-  });
   const std::string warning = "another node is called robot-1 as well";
   wait_until_logged(log, warning);
+  const auto packets = [](const control::FleetStatus& status) {
+    return count_named(status.unused(), "own_member");
+  };
+  const std::uint64_t before = packets(fleet_status(one));
+  wait_for(one, [&](const control::FleetStatus& now) { return packets(now) >= before + 8; });
   const std::string text = log.text();
   std::size_t lines = 0;
   for (auto at = text.find(warning); at != std::string::npos; at = text.find(warning, at + 1)) {
