@@ -223,10 +223,12 @@ constexpr std::array kRootKeys{
             Takes::kRestart, [](Config& c) -> Slot { return &c.store.enabled; }},
     RootKey{"store.file", "The file, in a folder that exists; others beside it begin as its name.",
             Takes::kRestart, [](Config& c) -> Slot { return &c.store.file; }},
-    RootKey{"store.disk_mb_max",
-            "Most that the store takes on the disk, megabytes of 10^6 bytes. Near it, messages and "
-            "maps of others go; this node's own never do.",
-            Takes::kRestart, [](Config& c) -> Slot { return &c.store.disk_mb_max; }, kDiskMb},
+    RootKey{
+        "store.disk_mb_max",
+        "Most that the store takes on the disk, megabytes of 10^6 bytes. Near it, messages and "
+        "maps of others go; this node's own never do: where nothing else is left, nothing new is "
+        "stored or leaves this node. Two damaged files that were moved aside may lie beside it.",
+        Takes::kRestart, [](Config& c) -> Slot { return &c.store.disk_mb_max; }, kDiskMb},
     RootKey{"log.level",
             "The least important lines to log.",
             Takes::kReload,

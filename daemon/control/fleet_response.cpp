@@ -161,6 +161,9 @@ std::string encode_fleet_status(const FleetReport& report) {
   status.set_memory_bytes(report.memory_bytes);
   status.set_batches_stored(report.batches_stored);
   status.set_batches_failed(report.batches_failed);
+  for (const auto& [name, count] : report.lifetime) {
+    add_count(name.c_str(), count, *status.mutable_lifetime());
+  }
   return framed(response.SerializeAsString());
 }
 

@@ -86,6 +86,8 @@ class FleetMesh {
   void commit(MeshTime now);
   bool has_unstored() const { return !self_backlog_.empty() || replication_.has_unstored(); }
   void add_moved(StoreBatch& rows);
+  // Over this life and those before it on this store.
+  std::map<std::string, std::uint64_t> counters();
   void on_committed(std::uint64_t batch, bool stored);
   void run_commands(MeshTime now);
   void run(MeshTime now, const replication::Command& command);
@@ -140,6 +142,7 @@ class FleetMesh {
   std::function<void()> drained_;
   std::uint64_t batches_stored_ = 0;
   std::uint64_t batches_failed_ = 0;
+  std::map<std::string, std::uint64_t> counters_before_;
   std::uint64_t telemetry_refused_ = 0;
   std::uint64_t copies_refused_ = 0;
   std::uint64_t unknown_statuses_ = 0;

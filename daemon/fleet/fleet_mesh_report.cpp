@@ -85,6 +85,7 @@ void FleetMesh::fill_self(FleetReport& report) {
   report.batches_stored = batches_stored_;
   report.batches_failed = batches_failed_;
   report.storing = storing_;
+  report.lifetime = counters();
 }
 
 void FleetMesh::fill_refused(FleetRefusedCounts& refused) {

@@ -15,6 +15,7 @@ void FleetMesh::restore(StoredFleet stored) {
   for (const auto& [number, own] : map_.own_layers()) {
     poses_stored_[number] = own.layer().pose().origin().revision;
   }
+  counters_before_ = std::move(stored.counters);
   for (auto& copy : stored.copies) {
     if (!replication_.restore_copy(std::move(copy))) ++copies_refused_;
   }
@@ -38,9 +39,23 @@ void FleetMesh::commit(MeshTime now) {
   const replication::StoreBatch batch = replication_.take_batch();
   StoreBatch rows = rows_of(batch);
   rows.self_layers = self_backlog_.take();
+  rows.counters = counters();
   add_moved(rows);
   store_.write(std::move(rows),
                [this, number = batch.number](bool stored) { on_committed(number, stored); });
+}
+
+std::map<std::string, std::uint64_t> FleetMesh::counters() {
+  std::map<std::string, std::uint64_t> counters = counters_before_;
+  counters["starts"] += 1;
+  counters["batches_failed"] += batches_failed_;
+  if (!runner_) return counters;
+  const mesh::EndpointCounts counts = runner_->endpoint().counts();
+  counters["packets_in"] += counts.packets_in;
+  counters["ip_bytes_in"] += counts.ip_bytes_in;
+  counters["packets_out"] += counts.packets_out;
+  counters["ip_bytes_out"] += counts.ip_bytes_out;
+  return counters;
 }
 
 // Own layers that lie elsewhere now, whether or not anything in them changed: no revision of a pose

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -103,7 +104,8 @@ struct FleetReport {
   std::size_t memory_bytes = 0;  // of replication and transport
   std::uint64_t batches_stored = 0;
   std::uint64_t batches_failed = 0;
-  bool storing = false;  // a batch is under way
+  bool storing = false;                           // a batch is under way
+  std::map<std::string, std::uint64_t> lifetime;  // since the store was made
 };
 
 }  // namespace warren

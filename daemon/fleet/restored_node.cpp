@@ -82,6 +82,13 @@ std::optional<StoreFailure> restore_logs(Store& store, bool rolled_back, StoredN
   return std::nullopt;
 }
 
+std::optional<StoreFailure> restore_counters(Store& store, StoredNode& node) {
+  auto counters = store.counters();
+  if (!counters) return counters.error();
+  node.fleet.counters = std::move(*counters);
+  return std::nullopt;
+}
+
 }  // namespace
 
 tl::expected<StoredNode, std::string> restore_node(Store& store, const StartReport& start,
@@ -90,6 +97,7 @@ tl::expected<StoredNode, std::string> restore_node(Store& store, const StartRepo
   auto failure = restore_layers(store, config, node);
   if (!failure) failure = restore_self_maps(store, config, node.map);
   if (!failure) failure = restore_logs(store, start.rolled_back, node);
+  if (!failure) failure = restore_counters(store, node);
   if (failure) return tl::unexpected("the store cannot be read: " + failure->text);
   return node;
 }

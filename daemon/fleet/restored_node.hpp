@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,10 +24,11 @@ struct StoredOwnLayer {
   Pose T_fleet_map;
 };
 
-// Layers that this node holds and does not write, and logs.
+// Layers that this node holds and does not write, logs, and counts over all lives on this store.
 struct StoredFleet {
   std::vector<std::unique_ptr<Replica>> copies;
   std::vector<replication::StoredLog> logs;
+  std::map<std::string, std::uint64_t> counters;
 };
 
 // What a node was when it ended, for its parts to go on with.

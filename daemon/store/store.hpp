@@ -22,7 +22,6 @@
 //    refuses, the next tick waits, the map goes on growing, and what changed goes into one batch.
 // 5. What packets brought into copies is collected per tick: the claims of all packets that
 //    Replica::apply() took, through write_of(); forget()s in `forgotten`. Nobody waits for these.
-// 6. Transport::Endpoint::save() goes into `states` of the batch that has what the parcel brought.
 //
 // At the ceiling (disk_bytes_max), and when the disk is full, these go, in this order: items of
 // others that their destination has, oldest first; copies of others' layers, longest unchanged

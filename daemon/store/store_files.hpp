@@ -45,7 +45,7 @@ class CommitMark {
 };
 
 // Copies of damaged files that are kept; the last makes way for another.
-inline constexpr int kCorruptCopiesMax = 9;
+inline constexpr int kCorruptCopiesMax = 2;
 // Renames the store's files to NAME.corrupt-N; the first of the new names.
 tl::expected<std::filesystem::path, StoreFailure> set_aside(const std::filesystem::path& file);
 

@@ -64,6 +64,8 @@ TEST_CASE("a base that starts again has the maps of robots that are gone, and th
   RunningDaemon base(base_config);
   const control::FleetStatus status = wait_for(base, has_all_of("robot-1"));
   CHECK_FALSE(node_named(status, "robot-1")->has_link());
+  CHECK(count_named(status.lifetime(), "starts") == 2);
+  CHECK(count_named(status.lifetime(), "packets_in") > status.packets_in());
   control::Request save;
   save.mutable_map_save()->set_path(fleet.file("copy.layer").string());
   save.mutable_map_save()->set_of("robot-1");

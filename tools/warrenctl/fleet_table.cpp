@@ -160,6 +160,9 @@ void print_traffic(std::ostream& out, const control::FleetStatus& status) {
     if (of.bytes() > 0) out << " " << of.name() << " " << of.bytes();
   }
   out << "\n";
+  if (status.lifetime_size() > 0) out << "over all lives on this store:";
+  for (const auto& count : status.lifetime()) out << " " << count.name() << " " << count.count();
+  if (status.lifetime_size() > 0) out << "\n";
   for (const auto& interface : status.interfaces()) {
     if (!interface.open())
       out << interface.name() << " is not open: " << interface.problem() << "\n";
