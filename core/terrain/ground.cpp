@@ -115,15 +115,19 @@ class Columns {
 
 }  // namespace
 
-bool GroundQuery::is_valid(double resolution_m) const {
+// A column with no reach looks into one voxel all the same.
+double GroundQuery::voxels(double resolution_m) const {
+  const double columns = static_cast<double>(columns_along(footprint.length_m, resolution_m)) *
+                         static_cast<double>(columns_along(footprint.width_m, resolution_m));
+  return columns * (1.0 + (above_m + below_m) / resolution_m);
+}
+
+bool GroundQuery::makes_sense() const {
   const auto in_reach = [](double length_m) { return length_m >= 0.0 && length_m <= 100.0; };
   return footprint.length_m > 0.0 && footprint.width_m > 0.0 && in_reach(footprint.length_m) &&
          in_reach(footprint.width_m) && in_reach(above_m) && in_reach(below_m) &&
          std::abs(gravity.norm() - 1.0) < kUnitTolerance && T_layer_base.matrix().allFinite() &&
-         T_layer_base.translation().cwiseAbs().maxCoeff() < kFarthest_m &&
-         columns_along(footprint.length_m, resolution_m) *
-                 columns_along(footprint.width_m, resolution_m) <=
-             kMaxColumns;
+         T_layer_base.translation().cwiseAbs().maxCoeff() < kFarthest_m;
 }
 
 GroundReport ground(const TerrainView& map, const GroundQuery& query) {

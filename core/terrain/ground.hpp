@@ -26,9 +26,14 @@ struct GroundQuery {
   double above_m = 0.3;
   double below_m = 0.7;
 
-  // Columns that it takes; false when they are more than kMaxColumns, or its numbers make no sense.
-  static constexpr std::size_t kMaxColumns = 65536;
-  bool is_valid(double resolution_m) const;
+  // Voxels that all its columns together may be long.
+  static constexpr double kVoxelsMax = 131072.0;
+  double voxels(double resolution_m) const;
+  // Whether its numbers make sense, however many voxels that are.
+  bool makes_sense() const;
+  bool is_valid(double resolution_m) const {
+    return makes_sense() && voxels(resolution_m) <= kVoxelsMax;
+  }
 };
 
 // The ground under a footprint, by columns along gravity half a voxel apart. Shares are of all

@@ -64,15 +64,12 @@ void Fleet::begin_tick() {
     ++ticks_late_;
     return;
   }
-  const bool asked = mapper_.ask_changes([this](std::vector<LayerChanges> changes) {
+  mapper_.ask_changes([this](std::vector<LayerChanges> changes) {
     asio::post(fleet_io_, [this, changes = std::move(changes)]() mutable {
       tick(std::move(changes));
       tick_under_way_ = false;
     });
   });
-  if (asked) return;
-  ++ticks_late_;
-  tick_under_way_ = false;
 }
 
 void Fleet::tick(std::vector<LayerChanges> changes) {

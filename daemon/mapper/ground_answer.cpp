@@ -25,9 +25,13 @@ tl::expected<GroundAnswer, std::string> answer_ground(const TerrainView& view,
   query.gravity = question.gravity_map.value_or(gravity_map);
   query.above_m = question.above_m.value_or(query.above_m);
   query.below_m = question.below_m.value_or(query.below_m);
-  if (!normalise(query.gravity) || !query.is_valid(view.lattice().resolution_m())) {
-    return tl::unexpected(std::string(
-        "the footprint, reach or gravity make no sense, or the footprint has too many voxels"));
+  if (!normalise(query.gravity) || !query.makes_sense()) {
+    return tl::unexpected(std::string("the footprint, reach or gravity make no sense"));
+  }
+  if (query.voxels(view.lattice().resolution_m()) > GroundQuery::kVoxelsMax) {
+    return tl::unexpected(
+        std::string("the columns are over 131072 voxels long together: ask for a smaller "
+                    "footprint, or for less reach"));
   }
   GroundAnswer answer;
   answer.ground = ground(view, query);

@@ -61,8 +61,8 @@ bool Mapper::ask_ground(const GroundQuestion& question,
   return ask([this, question, answer = std::move(answer)] { answer(map_.ground(question)); });
 }
 
-bool Mapper::ask_changes(std::function<void(std::vector<LayerChanges>)> answer) {
-  return ask([this, answer = std::move(answer)] { answer(map_.take_changes()); });
+void Mapper::ask_changes(std::function<void(std::vector<LayerChanges>)> answer) {
+  post([this, answer = std::move(answer)] { answer(map_.take_changes()); });
 }
 
 bool Mapper::ask(std::function<void()> question) {
@@ -75,7 +75,7 @@ bool Mapper::ask(std::function<void()> question) {
 
 void Mapper::post(std::function<void()> run) {
   const std::lock_guard lock(mutex_);
-  questions_.push_back(std::move(run));
+  own_.push_back(std::move(run));
   work_.notify_one();
 }
 
@@ -109,18 +109,30 @@ void Mapper::finish(Finished finished) {
   work_.notify_one();
 }
 
+bool Mapper::question_is_due() const {
+  return !questions_.empty() && (!question_passed_ || queue_.size() == 0);
+}
+
+bool Mapper::pose_order_is_due() const {
+  return !pose_orders_.empty() && pose_orders_.front().after_scans <= queue_.left();
+}
+
 bool Mapper::command_is_due() const {
-  return !questions_.empty() ||
-         (!pose_orders_.empty() && pose_orders_.front().after_scans <= queue_.left());
+  return !own_.empty() || question_is_due() || pose_order_is_due();
 }
 
 std::function<void()> Mapper::take_command() {
-  if (!command_is_due()) return nullptr;
   std::function<void()> command;
-  if (!questions_.empty()) {
-    command = std::move(questions_.front());
-    questions_.pop_front();
-  } else {
+  const auto take_from = [&command](std::deque<std::function<void()>>& commands) {
+    command = std::move(commands.front());
+    commands.pop_front();
+  };
+  if (!own_.empty()) {
+    take_from(own_);
+  } else if (question_is_due()) {
+    take_from(questions_);
+    question_passed_ = true;
+  } else if (pose_order_is_due()) {
     command = std::move(pose_orders_.front().run);
     pose_orders_.pop_front();
   }
@@ -140,6 +152,7 @@ void Mapper::run() {
       run_command();
     } else {
       auto scan = queue_.pop();
+      question_passed_ = false;
       lock.unlock();
       integrate(*scan);
     }

@@ -58,14 +58,16 @@ class Mapper {
   [[nodiscard]] bool update_pose(const PoseUpdateMessage& update,
                                  std::function<void(bool applied)> answer);
 
-  // These come before the scans that wait. False as above.
+  // Clients' questions: while scans wait, one goes before each, so that asking without end delays
+  // a scan by one answer. False as above.
   [[nodiscard]] bool ask_status(std::function<void(MapperStatus)> answer);
   [[nodiscard]] bool ask_snapshot(std::function<void(std::shared_ptr<const MapSnapshot>)> answer);
   using GroundResult = tl::expected<GroundAnswer, std::string>;
   [[nodiscard]] bool ask_ground(const GroundQuestion& question,
                                 std::function<void(const GroundResult&)> answer);
-  // A tick: what changed since the last one is handed over.
-  [[nodiscard]] bool ask_changes(std::function<void(std::vector<LayerChanges>)> answer);
+  // The daemon's own, before all that waits. A tick: what changed since the last one is handed
+  // over.
+  void ask_changes(std::function<void(std::vector<LayerChanges>)> answer);
   void set_filters(SensorFilters filters);
   void set_queue_capacity(std::size_t scans);
 
@@ -92,11 +94,13 @@ class Mapper {
   void run();
   // Waits for work; false when there is none and none will come.
   bool wait_for_work(std::unique_lock<std::mutex>& lock);
-  // The next question or due order, taken off its queue; nothing when none is due.
+  // The next that is due, taken off its queue; nothing when none is.
   std::function<void()> take_command();
+  bool question_is_due() const;
+  bool pose_order_is_due() const;
   bool command_is_due() const;
   [[nodiscard]] bool ask(std::function<void()> question);
-  void post(std::function<void()> run);  // the daemon's own few: never refused
+  void post(std::function<void()> run);
   void integrate(QueuedScan& scan);
   ScanReceipt receipt_of(ScanMessage& message);
   void count_cpu(double cpu_ms);
@@ -107,7 +111,9 @@ class Mapper {
   mutable std::mutex mutex_;  // guards what follows, up to finishing_
   std::condition_variable work_;
   ScanQueue queue_;
-  std::deque<std::function<void()>> questions_;  // always due
+  std::deque<std::function<void()>> own_;  // of the daemon itself: few, never refused, always due
+  std::deque<std::function<void()>> questions_;
+  bool question_passed_ = false;  // since the last scan
   std::deque<PoseOrder> pose_orders_;
   Finished finished_;
   bool finishing_ = false;

@@ -149,6 +149,10 @@ TEST_CASE("questions about ground that make no sense are answered by an error") 
   CHECK(error_of([](Ground& g) { g.set_length_m(-1.0); }).find("no sense") != std::string::npos);
   CHECK(error_of([](Ground& g) { g.set_width_m(500.0); }).find("no sense") != std::string::npos);
   CHECK(error_of([](Ground& g) { g.set_below_m(NAN); }).find("no sense") != std::string::npos);
+  CHECK(error_of([](Ground& g) {
+          g.set_above_m(100.0);
+          g.set_below_m(100.0);
+        }).find("131072 voxels") != std::string::npos);
   CHECK(error_of([](Ground& g) { g.add_gravity_map(1.0); }).find("3 numbers") != std::string::npos);
   CHECK(daemon.status().node() == "robot");
 }

@@ -195,6 +195,24 @@ TEST_CASE("whatever the numbers, a valid query ends and its shares add up") {
   }));
 }
 
+TEST_CASE(
+    "a query's columns are at most so many voxels long together, whatever makes them so many") {
+  GroundQuery query = query_at(0.0, 0.0, 0.0);
+  query.footprint = {3.2, 1.6};  // 64 by 32 columns
+  query.above_m = 3.1;
+  query.below_m = 3.2;
+  CHECK(query.voxels(0.1) == doctest::Approx(GroundQuery::kVoxelsMax));
+  query.below_m = 3.15;
+  CHECK(query.is_valid(0.1));
+  query.below_m = 3.25;
+  CHECK_FALSE(query.is_valid(0.1));
+  CHECK(query.makes_sense());
+  query.above_m = query.below_m = 0.0;
+  CHECK(query.is_valid(0.1));
+  query.footprint = {50.0, 50.0};
+  CHECK_FALSE(query.is_valid(0.1));
+}
+
 TEST_CASE("queries that make no sense are not valid") {
   const auto is_valid = [](auto change) {
     GroundQuery query = query_at(0.0, 0.0, 0.0);
