@@ -128,19 +128,23 @@ tl::expected<MemberId, std::string> FleetDesk::find_node(const std::string& name
   return tl::unexpected("no node called " + name + " is known here; fleet status lists them");
 }
 
+// By its own word, if there is one: a node that lost its store begins again to count its layers.
 tl::expected<const Replica*, std::string> FleetDesk::newest_layer(MemberId node) const {
   const NodeBook::Node* const known = parts_.nodes.find(node);
+  const std::string name =
+      known != nullptr ? known->status.name : "node " + std::to_string(node.number);
+  const replication::LayerBook& book = parts_.replication.book();
+  if (known != nullptr && known->status.layer) {
+    const replication::HeldLayer* const current = book.find(known->status.layer->id);
+    if (current != nullptr) return &current->replica();
+    return tl::unexpected("the layer that " + name + " writes now is not held here");
+  }
   const Replica* newest = nullptr;
-  for (const auto& held : parts_.replication.book().layers()) {
+  for (const auto& held : book.layers()) {
     if (held->id.origin != node.number) continue;
-    const bool is_current =
-        known != nullptr && known->status.layer && known->status.layer->id == held->id;
-    if (is_current) return &held->replica();
     if (newest == nullptr || held->id.number >= newest->id().number) newest = &held->replica();
   }
   if (newest != nullptr) return newest;
-  const std::string name =
-      known != nullptr ? known->status.name : "node " + std::to_string(node.number);
   return tl::unexpected("no layer of " + name + " is held here");
 }
 

@@ -113,14 +113,20 @@ void FleetMesh::speak(MeshTime now) {
   status.layer = stored_layer();
   if (const auto position = map_.position_fleet()) status.position_fleet = position->cast<float>();
   const OwnWord::Tell tell = word_.judge(now, status, drained_ != nullptr);
-  nodes_.note(config_.replication.self, status);
+  nodes_.hear(config_.replication.self, status);
   if (tell.neighbours) run(now, replication::SetTelemetry{kStatusKey, encode(status)});
   if (tell.fleet) (void)replication_.append(now, item_of(status));
 }
 
 void FleetMesh::on_event(const mesh::MeshEvent& event) {
-  const auto* const telemetry = std::get_if<mesh::TelemetryArrived>(&event);
-  if (telemetry != nullptr && telemetry->key == kStatusKey) hear(telemetry->from, telemetry->bytes);
+  std::visit(
+      mesh::Visitor{[&](const mesh::TelemetryArrived& telemetry) {
+                      if (telemetry.key == kStatusKey) hear(telemetry.from, telemetry.bytes);
+                    },
+                    [&](const mesh::MemberDown& down) { nodes_.on_silent(down.member); },
+                    [&](const mesh::MemberForgotten& gone) { nodes_.on_silent(gone.member); },
+                    [](const auto&) {}},
+      event);
   log_event(event);
   replication_.on_event(MeshRunner::now(), event);
   turn_soon();
@@ -146,16 +152,22 @@ std::string FleetMesh::name_of(MemberId member) const {
 }
 
 void FleetMesh::hear(MemberId from, std::span<const std::uint8_t> bytes) {
-  if (note_status(from, bytes)) status_came_[from] = MeshRunner::now();
+  const auto status = read_node_status(bytes);
+  if (!status) return (void)++unknown_statuses_;
+  if (nodes_.hear(from, *status)) status_came_[from] = MeshRunner::now();
+  if (nodes_.find(from) == nullptr) ++statuses_without_room_;
 }
 
-bool FleetMesh::note_status(MemberId from, std::span<const std::uint8_t> bytes) {
-  const auto status = read_node_status(bytes);
+bool FleetMesh::read_status(const replication::LogId& log, replication::ItemNumber number,
+                            const replication::Item& item) {
+  if (item.kind != replication::ItemKind::kStatus) return false;
+  const auto status = read_node_status(item.bytes);
   if (!status) {
     ++unknown_statuses_;
     return false;
   }
-  const bool is_news = nodes_.note(from, *status);
+  const MemberId from{log.origin};
+  const bool is_news = nodes_.read(from, {log.incarnation, number}, *status);
   if (nodes_.find(from) == nullptr) ++statuses_without_room_;
   return is_news;
 }
@@ -219,8 +231,8 @@ void FleetMesh::take_items() {
   bool poses = false;
   while (const auto arrived = replication_.poll_item()) {
     poses = poses || arrived->item.kind == replication::ItemKind::kLayerPose;
-    if (arrived->item.kind == replication::ItemKind::kStatus) {
-      hear(MemberId{arrived->log.origin}, arrived->item.bytes);
+    if (read_status(arrived->log, arrived->number, arrived->item)) {
+      status_came_[MemberId{arrived->log.origin}] = MeshRunner::now();
     }
     desk_.on_item(*arrived);
   }

@@ -94,9 +94,10 @@ class FleetMesh {
   void take_items();
   void adopt_copies();
   void take_poses(Replica& copy);
-  void hear(MemberId from, std::span<const std::uint8_t> bytes);
-  // True if it was news.
-  bool note_status(MemberId from, std::span<const std::uint8_t> bytes);
+  void hear(MemberId from, std::span<const std::uint8_t> status);
+  // True if it was a status, and news.
+  bool read_status(const replication::LogId& log, replication::ItemNumber number,
+                   const replication::Item& item);
   void speak(MeshTime now);
   std::optional<NodeStatus::Layer> stored_layer();
   void watch_conflicts();

@@ -212,18 +212,12 @@ FleetNodeReport& FleetMesh::node_of(FleetReport& report, MemberId member) const 
 }
 
 const Replica* FleetMesh::newest_copy_of(const std::string& name) const {
-  const Replica* newest = nullptr;
   for (const auto& held : replication_.book().layers()) {
     const MemberId writer{held->id.origin};
     if (!held->copy || name_of(writer) != name) continue;
-    // A node that lost its store begins again to count its layers.
-    const NodeBook::Node* const node = nodes_.find(writer);
-    const bool is_current =
-        node != nullptr && node->status.layer && node->status.layer->id == held->id;
-    if (is_current) return held->copy.get();
-    if (newest == nullptr || held->id.number >= newest->id().number) newest = held->copy.get();
+    return desk_.newest_layer(writer).value_or(nullptr);
   }
-  return newest;
+  return nullptr;
 }
 
 }  // namespace warren

@@ -24,9 +24,7 @@ void FleetMesh::restore(StoredFleet stored) {
   }
   for (const replication::StoredLog& log : stored.logs) {
     for (const auto& [number, item] : log.items) {
-      if (item && item->kind == replication::ItemKind::kStatus) {
-        (void)note_status(MemberId{log.id.origin}, item->bytes);
-      }
+      if (item) (void)read_status(log.id, number, *item);
     }
   }
 }

@@ -6,34 +6,16 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <asio/io_context.hpp>
-#include <asio/post.hpp>
 
 #include "daemon/store/store.hpp"
+#include "tests/daemon/scripted_store.hpp"
 #include "tests/daemon/small_fleet.hpp"
 #include "tests/daemon/temporary_directory.hpp"
 
 namespace warren {
 namespace {
-
-// Answers at once, as it is told to.
-class ScriptedStore final : public StorePort {
- public:
-  explicit ScriptedStore(asio::io_context& io) : io_(io) {}
-  void write(StoreBatch batch, std::function<void(bool)> done) override {
-    batches.push_back(std::move(batch));
-    asio::post(io_, [done = std::move(done), stores = stores] { done(stores); });
-  }
-
-  std::vector<StoreBatch> batches;
-  bool stores = true;
-
- private:
-  asio::io_context& io_;
-};
 
 // A real store behind a driver that refuses when it is told to.
 class RefusingStore final : public StorePort {
@@ -95,7 +77,7 @@ struct Node {
   }
 
   asio::io_context io;
-  ScriptedStore store{io};
+  test::ScriptedStore store{io};
   FleetMap map = test::fleet_map();
   FleetMesh mesh{io, config(), map, store};
 };

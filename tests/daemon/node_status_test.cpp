@@ -14,11 +14,20 @@ namespace {
 using std::chrono::seconds;
 
 const LayerId kLayer{7, 2, 0x1122334455667788};
+constexpr std::uint64_t kLog = 0x10;
+constexpr std::uint64_t kLaterLog = 0x20;
 
 NodeStatus status_at(std::uint32_t revision, std::int64_t time_us) {
   return {"robot-3", NodeRole::kRobot, time_us,
           NodeStatus::Layer{kLayer, {revision}, 0xABCD, 70'000},
           Eigen::Vector3f(1.5F, -2.0F, 0.25F)};
+}
+
+NodeStatus status_of(std::uint32_t layer, std::uint32_t revision, std::int64_t time_us,
+                     std::uint64_t incarnation = 0xAA) {
+  NodeStatus status = status_at(revision, time_us);
+  status.layer->id = {7, layer, incarnation};
+  return status;
 }
 
 MeshTime at(int s) { return MeshTime(seconds(s)); }
@@ -63,10 +72,12 @@ TEST_CASE("a status cut short, too long, of another version or with a strange na
 
 TEST_CASE("the book tells when a revision was made, and believes no older word") {
   NodeBook book;
-  CHECK(book.note({7}, status_at(10, 1000)));
-  CHECK(book.note({7}, status_at(20, 2000)));
-  CHECK_FALSE(book.note({7}, status_at(15, 1500)));
-  CHECK_FALSE(book.note({7}, status_at(20, 2000)));
+  CHECK(book.read({7}, {kLog, 1}, status_at(10, 1000)));
+  CHECK(book.hear({7}, status_at(20, 2000)));
+  CHECK_FALSE(book.read({7}, {kLog, 2}, status_at(15, 1500)));
+  book.on_silent({7});
+  CHECK_FALSE(book.read({7}, {kLog, 3}, status_at(15, 1500)));
+  CHECK_FALSE(book.hear({7}, status_at(20, 2000)));
   const NodeBook::Node* const node = book.find({7});
   REQUIRE(node != nullptr);
   CHECK(node->status.layer->revision == Revision{20});
@@ -76,9 +87,45 @@ TEST_CASE("the book tells when a revision was made, and believes no older word")
   CHECK(node->revisions.time_of({500}) == 2000);
   NodeStatus next = status_at(1, 3000);
   next.layer->id.number = 3;
-  CHECK(book.note({7}, next));
+  CHECK(book.hear({7}, next));
   CHECK(node->revisions.time_of({19}) == 3000);
   CHECK(book.find({8}) == nullptr);
+}
+
+TEST_CASE("a new layer is believed even though the clock went back") {
+  NodeBook book;
+  const NodeStatus before = status_of(2, 500, 9'000'000);
+  const NodeStatus rebooted = status_of(3, 1, 40);
+  SUBCASE("by its own word") {
+    CHECK(book.hear({7}, before));
+    CHECK(book.hear({7}, rebooted));
+    // What others hand on of it is older by now, and the time in it says nothing.
+    CHECK_FALSE(book.read({7}, {kLog, 8}, before));
+  }
+  SUBCASE("by its log, in whatever order that comes") {
+    CHECK(book.read({7}, {kLog, 8}, before));
+    CHECK(book.read({7}, {kLog, 9}, rebooted));
+    CHECK_FALSE(book.read({7}, {kLog, 7}, before));
+  }
+  CHECK(book.find({7})->status == rebooted);
+}
+
+TEST_CASE("a node that lost its disk, and counts its layers from 0 again, is believed") {
+  NodeBook book;
+  const NodeStatus before = status_of(5, 500, 9'000'000);
+  const NodeStatus anew = status_of(0, 1, 40, 0xBB);
+  CHECK(book.read({7}, {kLog, 8}, before));
+  SUBCASE("at once by its own word, and what its former self wrote counts no more") {
+    CHECK(book.hear({7}, anew));
+    book.on_silent({7});
+    CHECK_FALSE(book.read({7}, {kLog, 9}, before));
+  }
+  SUBCASE("by its log when that goes on; the former one does not") {
+    CHECK_FALSE(book.read({7}, {kLaterLog, 0}, status_of(0, 0, 30, 0xBB)));
+    CHECK(book.read({7}, {kLaterLog, 1}, anew));
+    CHECK_FALSE(book.read({7}, {kLog, 8}, before));
+  }
+  CHECK(book.find({7})->status == anew);
 }
 
 TEST_CASE("times of very many revisions are thinned, never forgotten at the ends") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tools/warrenctl/ask.hpp"
@@ -38,6 +39,12 @@ tl::expected<std::vector<Called>, std::string> loaded_layers(const std::string& 
   return layers;
 }
 
+// How late a node began it; only of the one that it writes now it tells how much is known. A node
+// that lost its disk counts from 0 again.
+std::pair<bool, std::uint32_t> lateness(const control::FleetLayer& layer) {
+  return {layer.has_lag_voxels(), layer.layer().number()};
+}
+
 // Those of others that the mesh keeps here; by a node's name the newest of them is meant.
 tl::expected<std::vector<Called>, std::string> copied_layers(const std::string& socket) {
   control::Request request;
@@ -47,11 +54,13 @@ tl::expected<std::vector<Called>, std::string> copied_layers(const std::string& 
   std::vector<Called> layers;
   for (const control::FleetNode& node : response->fleet_status().nodes()) {
     std::optional<std::size_t> newest;
+    std::pair<bool, std::uint32_t> latest;
     for (const control::FleetLayer& layer : node.layers()) {
       if (layer.own()) continue;
       layers.push_back({layer.layer(), {}});
-      const bool newer = !newest || layers[*newest].id.number() <= layer.layer().number();
-      if (newer) newest = layers.size() - 1;
+      if (newest && lateness(layer) < latest) continue;
+      latest = lateness(layer);
+      newest = layers.size() - 1;
     }
     if (newest && !node.name().empty()) layers[*newest].names.push_back(node.name());
   }
