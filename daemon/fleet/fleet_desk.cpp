@@ -63,29 +63,42 @@ void FleetDesk::withdraw_old_path(MeshTime now) {
   book.withdraw(now, oldest);
 }
 
-void FleetDesk::when_stored(ItemNumber number, std::function<void(bool)> done) {
-  waiting_.push_back({number, std::move(done)});
+void FleetDesk::when_stored(const mesh::NumberRange& numbers, std::function<void(bool)> done) {
+  waiting_.push_back({numbers, std::move(done)});
   parts_.turn_soon();
 }
 
 // What is not stored will not be sent either.
 void FleetDesk::on_committed(MeshTime now, bool stored) {
-  replication::LogBook& book = parts_.replication.log_book();
+  const replication::HeldLog* const own = parts_.replication.log_book().own();
   std::vector<Waiting> still;
   std::vector<std::pair<std::function<void(bool)>, bool>> done;
-  mesh::ByteRanges given_up;
   for (Waiting& waiting : std::exchange(waiting_, {})) {
-    const bool is_stored = book.own() != nullptr && book.own()->stored.contains(waiting.number);
+    const bool is_stored = own != nullptr && own->stored.contains(waiting.numbers);
     if (is_stored || !stored) {
-      if (!is_stored) given_up.add({waiting.number, waiting.number + 1ULL});
+      if (!is_stored) give_up(now, waiting.numbers);
       done.emplace_back(std::move(waiting.done), is_stored);
     } else {
       still.push_back(std::move(waiting));
     }
   }
   waiting_ = std::move(still);
-  book.withdraw(now, given_up);
   for (const auto& [tell, is_stored] : done) tell(is_stored);
+}
+
+// An order that stood in the place of one of these is said again: it still holds.
+void FleetDesk::give_up(MeshTime now, const mesh::NumberRange& numbers) {
+  replication::LogBook& book = parts_.replication.log_book();
+  std::vector<Order> before;
+  for (std::uint64_t number = numbers.first; number < numbers.end; ++number) {
+    const replication::Item* const item = book.own()->log.find(static_cast<ItemNumber>(number));
+    const Order* const held = item == nullptr ? nullptr : orders_.held(parts_.self.number, *item);
+    if (held != nullptr) before.push_back(*held);
+  }
+  mesh::ByteRanges withdrawn;
+  withdrawn.add(numbers);
+  book.withdraw(now, withdrawn);
+  for (const Order& order : before) (void)book.append(now, item_of(order));
 }
 
 void FleetDesk::stop() {
@@ -104,9 +117,10 @@ void FleetDesk::send(MeshTime now, const MessageSendOrder& order, std::int64_t t
   }
   const auto number = messages_.send(now, message);
   if (!number) return answer(tl::unexpected(number.error()));
-  when_stored(*number, [answer = std::move(answer), number = *number](bool stored) {
-    stored ? answer(number) : answer(tl::unexpected(std::string(kNotSent)));
-  });
+  when_stored({*number, *number + 1ULL},
+              [answer = std::move(answer), number = *number](bool stored) {
+                stored ? answer(number) : answer(tl::unexpected(std::string(kNotSent)));
+              });
 }
 
 InboxExcerpt FleetDesk::read(MeshTime now, const MessageWatchQuestion& question) {

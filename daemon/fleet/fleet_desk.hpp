@@ -69,11 +69,13 @@ class FleetDesk {
   const OperatorOrders& orders() const { return orders_; }
 
  private:
+  // Items of the own log that are stored together.
   struct Waiting {
-    replication::ItemNumber number = 0;
+    mesh::NumberRange numbers;
     std::function<void(bool stored)> done;
   };
-  void when_stored(replication::ItemNumber number, std::function<void(bool)> done);
+  void when_stored(const mesh::NumberRange& numbers, std::function<void(bool)> done);
+  void give_up(MeshTime now, const mesh::NumberRange& numbers);
   void note_path(MeshTime now, std::int64_t time_us, bool last);
   void withdraw_old_path(MeshTime now);
   tl::expected<std::vector<Order>, std::string> drafts_of(const FleetOrder& order) const;

@@ -9,8 +9,6 @@
 namespace warren {
 namespace {
 
-using replication::ItemNumber;
-
 constexpr const char* kNotOrdered = "it could not be stored, and is not ordered";
 constexpr const char* kNoBase =
     "this node is a robot: only a base gives orders to the fleet; map retract, restore and move "
@@ -127,7 +125,6 @@ void FleetDesk::order(MeshTime now, const FleetOrder& wanted,
   if (!drafts) return answer(tl::unexpected(drafts.error()));
   Layers layers;
   std::vector<replication::Item> items;
-  std::optional<ItemNumber> last;
   for (const Order& draft : *drafts) {
     if (draft.revision == 0) {
       return answer(tl::unexpected(std::string("no further order on this node can be given")));
@@ -135,10 +132,10 @@ void FleetDesk::order(MeshTime now, const FleetOrder& wanted,
     const Layers of = layers_of(draft);
     layers.insert(layers.end(), of.begin(), of.end());
     items.push_back(item_of(draft));
-    last = parts_.replication.append(now, items.back());
-    if (!last) return answer(tl::unexpected(std::string("this node's log is full")));
   }
-  when_stored(*last, [this, items, layers, answer = std::move(answer)](bool stored) {
+  const auto numbers = parts_.replication.log_book().append_all(now, items);
+  if (!numbers) return answer(tl::unexpected(std::string("this node's log is full")));
+  when_stored(*numbers, [this, items, layers, answer = std::move(answer)](bool stored) {
     if (!stored) return answer(tl::unexpected(std::string(kNotOrdered)));
     for (const replication::Item& item : items) (void)orders_.note(parts_.self.number, item);
     parts_.turn_soon();

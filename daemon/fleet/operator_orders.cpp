@@ -73,6 +73,14 @@ std::optional<WrittenPose> OperatorOrders::correction_of(const LayerId& layer) c
   return WrittenPose{word->revision, word->writer, word->correction};
 }
 
+const Order* OperatorOrders::held(std::uint32_t writer, const replication::Item& item) const {
+  const auto order = read_order(item);
+  const auto of_subject = order ? orders_.find(subject_of(*order)) : orders_.end();
+  if (of_subject == orders_.end()) return nullptr;
+  const auto found = of_subject->second.find(writer);
+  return found == of_subject->second.end() ? nullptr : &found->second;
+}
+
 std::uint32_t OperatorOrders::next_revision(std::uint32_t node) const {
   std::uint32_t highest = 0;
   for (const auto& [subject, of_subject] : orders_) {

@@ -29,6 +29,8 @@ class OperatorOrders {
   bool is_retracted(const LayerId& layer) const;
   // Nothing if there is none.
   std::optional<WrittenPose> correction_of(const LayerId& layer) const;
+  // What this writer said last about what the item, an order, is about.
+  const Order* held(std::uint32_t writer, const replication::Item& item) const;
   // For the next order on this node: above all that count; 0: there is none any more.
   std::uint32_t next_revision(std::uint32_t node) const;
 

@@ -22,8 +22,10 @@ ItemNumber ItemLog::next_number() const {
   return seen_.empty() ? 0 : static_cast<ItemNumber>(seen_.ranges().back().end);
 }
 
-bool ItemLog::has_room_for(const Item& item) const {
-  return items_.size() < kItemsMax && bytes_ + charge(item) <= kBytesMax;
+bool ItemLog::has_room_for(std::span<const Item> items) const {
+  std::size_t bytes = bytes_;
+  for (const Item& item : items) bytes += charge(item);
+  return items_.size() + items.size() <= kItemsMax && bytes <= kBytesMax;
 }
 
 const Item* ItemLog::find(ItemNumber number) const {

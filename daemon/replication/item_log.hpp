@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,8 @@ class ItemLog {
   const LogId& id() const { return id_; }
   // The next number of the own log.
   ItemNumber next_number() const;
-  bool has_room_for(const Item& item) const;
+  bool has_room_for(std::span<const Item> items) const;
+  bool has_room_for(const Item& item) const { return has_room_for(std::span(&item, 1)); }
   // Precondition of an own log: has_room_for(item).
   AddResult add(ItemNumber number, Item item);
   // They count no more.

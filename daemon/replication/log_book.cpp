@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/replication/log_book.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "daemon/replication/number_ranges.hpp"
@@ -101,15 +102,26 @@ void LogBook::note_change(MeshTime now, HeldLog& held) {
 }
 
 std::optional<ItemNumber> LogBook::append(MeshTime now, Item item) {
-  if (own_ == nullptr || item.bytes.size() > Item::kBytesMax) return std::nullopt;
-  if (!own_->log.has_room_for(item)) {
-    ++items_refused_;
+  std::vector<Item> items;
+  items.push_back(std::move(item));
+  const auto numbers = append_all(now, std::move(items));
+  if (!numbers) return std::nullopt;
+  return static_cast<ItemNumber>(numbers->first);
+}
+
+std::optional<mesh::NumberRange> LogBook::append_all(MeshTime now, std::vector<Item> items) {
+  const bool too_long = std::any_of(items.begin(), items.end(), [](const Item& item) {
+    return item.bytes.size() > Item::kBytesMax;
+  });
+  if (own_ == nullptr || too_long) return std::nullopt;
+  if (!own_->log.has_room_for(items)) {
+    items_refused_ += items.size();
     return std::nullopt;
   }
-  const ItemNumber number = own_->log.next_number();
-  own_->log.add(number, std::move(item));
+  const mesh::NumberRange numbers{own_->log.next_number(), own_->log.next_number() + items.size()};
+  for (Item& item : items) own_->log.add(own_->log.next_number(), std::move(item));
   note_change(now, *own_);
-  return number;
+  return numbers;
 }
 
 // A receipt makes void what it is for, wherever that is held.

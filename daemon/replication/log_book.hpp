@@ -61,6 +61,8 @@ class LogBook {
 
   // To the own log; nothing if it is not open or full.
   std::optional<ItemNumber> append(MeshTime now, Item item);
+  // Likewise, all of them or none: at least one. The numbers they get.
+  std::optional<mesh::NumberRange> append_all(MeshTime now, std::vector<Item> items);
   void add(MeshTime now, ItemParcel parcel);
   void make_void(MeshTime now, const VoidParcel& parcel);
 

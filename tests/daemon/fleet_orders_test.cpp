@@ -100,6 +100,40 @@ struct Base {
 
 }  // namespace
 
+TEST_CASE("a node's layers are cleared all together, or none of them is") {
+  Base base;
+  base.start({kFirst, kSecond}, {word_on(kSecond, 1, 10)});
+  base.store.stores = false;
+  const auto refused = base.order(What::kClear);
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().find("not ordered") != std::string::npos);
+  base.store.stores = true;
+  base.run_batches(1);
+  CHECK(base.stored_orders().empty());
+  CHECK_FALSE(base.mesh.desk().orders().is_retracted(kFirst));
+
+  const auto cleared = base.order(What::kClear);
+  REQUIRE(cleared.has_value());
+  CHECK(cleared->size() == 2);
+  CHECK(base.stored_orders().size() == 2);
+  CHECK(base.mesh.desk().orders().is_retracted(kFirst));
+  CHECK(base.mesh.desk().orders().is_retracted(kSecond));
+}
+
+TEST_CASE("an order that could not be stored leaves the one in force that it would have replaced") {
+  Base base;
+  base.start({kFirst}, {word_on(kFirst, 1, 10)});
+  REQUIRE(base.order(What::kRetract).has_value());
+  base.store.stores = false;
+  REQUIRE_FALSE(base.order(What::kRestore).has_value());
+  base.store.stores = true;
+  base.run_batches(1);
+  const std::vector<Order> orders = base.stored_orders();
+  REQUIRE(orders.size() == 1);
+  CHECK(orders.front().verb == Order::Verb::kRetract);
+  CHECK(base.mesh.desk().orders().is_retracted(kFirst));
+}
+
 TEST_CASE("the layer that a node writes by its own word is its newest, whatever its number") {
   Base base;
   SUBCASE("held here") {

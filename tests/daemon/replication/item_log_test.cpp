@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "daemon/replication/log_book.hpp"
 #include "daemon/replication/log_message.hpp"
 #include "tests/core/layer/random_codes.hpp"
 
@@ -103,6 +104,22 @@ TEST_CASE("the own log takes no more than it has room for") {
   CHECK(number > 3000);
   CHECK(log.next_number() == number);
   CHECK(log.dropped() == 0);
+}
+
+TEST_CASE("several items get numbers in a row, or none of them gets one") {
+  LogBook book({kLog.origin}, 4);
+  REQUIRE(book.open(kLog));
+  for (std::size_t i = 0; i + 2 < ItemLog::kItemsMax; ++i) {
+    REQUIRE(book.append({}, item(ItemKind::kCommand)));
+  }
+  const ItemNumber next = book.own()->log.next_number();
+  CHECK_FALSE(book.append_all({}, std::vector<Item>(3, item(ItemKind::kCommand))));
+  CHECK(book.own()->log.next_number() == next);
+  CHECK(book.items_refused() == 3);
+  const auto numbers = book.append_all({}, std::vector<Item>(2, item(ItemKind::kCommand)));
+  REQUIRE(numbers);
+  CHECK(numbers->first == next);
+  CHECK(numbers->end == next + 2);
 }
 
 }  // namespace
