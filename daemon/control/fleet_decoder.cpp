@@ -57,10 +57,9 @@ Decoded fleet_order(const control::FleetOrderRequest& request) {
     const control::LayerId& id = request.layer();
     order.layer = LayerId{id.origin(), id.number(), id.incarnation()};
   }
-  const bool of_layer_alone =
-      order.what == FleetOrder::What::kRetract || order.what == FleetOrder::What::kRestore;
-  if (order.layer ? !order.node.empty() || !of_layer_alone : order.node.empty()) {
-    return fault("fleet_order needs a node, or to retract or restore a layer");
+  const bool clears = order.what == FleetOrder::What::kClear;
+  if (order.layer ? !order.node.empty() || clears : order.node.empty()) {
+    return fault("fleet_order needs a node, or a layer to retract, restore or align");
   }
   order.shift = {{request.x_m(), request.y_m(), request.z_m()}, request.yaw_rad()};
   if (!order.shift.is_within_reach())

@@ -79,6 +79,8 @@ class FleetDesk {
   void note_path(MeshTime now, std::int64_t time_us, bool last);
   void withdraw_old_path(MeshTime now);
   tl::expected<std::vector<Order>, std::string> drafts_of(const FleetOrder& order) const;
+  tl::expected<const Replica*, std::string> layer_to_align(const FleetOrder& order,
+                                                           MemberId node) const;
   tl::expected<Order, std::string> alignment_of(const FleetOrder& order, MemberId node) const;
   Layers layers_of(const Order& order) const;
   std::set<std::uint32_t> bases() const;

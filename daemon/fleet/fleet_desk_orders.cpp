@@ -57,10 +57,18 @@ FleetDesk::Layers FleetDesk::layers_of(const Order& order) const {
   return layers;
 }
 
+tl::expected<const Replica*, std::string> FleetDesk::layer_to_align(const FleetOrder& wanted,
+                                                                    MemberId node) const {
+  if (!wanted.layer) return newest_layer(node);
+  const replication::HeldLayer* const held = parts_.replication.book().find(*wanted.layer);
+  if (held != nullptr) return &held->replica();
+  return tl::unexpected(std::string("only a layer that the mesh brought here can be aligned"));
+}
+
 // The correction that brings the layer from where its origin says to where it shall lie.
 tl::expected<Order, std::string> FleetDesk::alignment_of(const FleetOrder& wanted,
                                                          MemberId node) const {
-  const auto layer = newest_layer(node);
+  const auto layer = layer_to_align(wanted, node);
   if (!layer) return tl::unexpected(layer.error());
   const LayerPose& pose = (*layer)->pose();
   const auto T_fleet_layer = pose.origin().pose.checked();

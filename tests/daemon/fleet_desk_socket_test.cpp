@@ -213,7 +213,8 @@ TEST_CASE("an alignment moves a robot's layer, path and position everywhere, the
   control::Request align = order_on("robot-1", control::FleetOrderRequest::ALIGN);
   align.mutable_fleet_order()->set_x_m(2.0);
   CHECK(ask(fleet.robot, align).error().text().find("only a base") != std::string::npos);
-  REQUIRE(ask(fleet.base, align).has_fleet_ordered());
+  const auto aligned = ask(fleet.base, align).fleet_ordered();
+  REQUIRE(aligned.layers_size() == 1);
   wait_for_state(fleet.relay, 107.05, "occupied");
   CHECK(state_at(fleet.relay, 105.05) != "occupied");
   wait_for_state(fleet.base, 107.05, "occupied");
@@ -227,8 +228,13 @@ TEST_CASE("an alignment moves a robot's layer, path and position everywhere, the
     };
   };
   wait_for(fleet.robot, stands_at(102.0));
-  // In place of the one before.
+  // In place of the one before; a layer may be named itself, but not to be cleared.
   align.mutable_fleet_order()->set_x_m(0.0);
+  align.mutable_fleet_order()->clear_node();
+  *align.mutable_fleet_order()->mutable_layer() = aligned.layers(0);
+  align.mutable_fleet_order()->set_what(control::FleetOrderRequest::CLEAR);
+  CHECK(ask(fleet.base, align).error().text().find("needs a node") != std::string::npos);
+  align.mutable_fleet_order()->set_what(control::FleetOrderRequest::ALIGN);
   REQUIRE(ask(fleet.base, align).has_fleet_ordered());
   wait_for_state(fleet.relay, 105.05, "occupied");
   CHECK(state_at(fleet.relay, 107.05) != "occupied");

@@ -134,6 +134,21 @@ TEST_CASE("an order that could not be stored leaves the one in force that it wou
   CHECK(base.mesh.desk().orders().is_retracted(kFirst));
 }
 
+TEST_CASE("an earlier layer of a node is aligned when it is named") {
+  Base base;
+  base.start({kFirst, kSecond}, {word_on(kSecond, 1, 10)});
+  const auto aligned = base.order(FleetOrder{What::kAlign, "", kFirst, {{2.0, 0.0, 0.0}, 0.0}});
+  REQUIRE(aligned.has_value());
+  CHECK(*aligned == FleetDesk::Layers{kFirst});
+  const std::vector<Order> orders = base.stored_orders();
+  REQUIRE(orders.size() == 1);
+  CHECK(orders.front().layer == kFirst);
+  CHECK(orders.front().correction.translation.x() == 2.0);
+  const auto unknown =
+      base.order(FleetOrder{What::kAlign, "", LayerId{kRobot, 7, 1}, {{2.0, 0.0, 0.0}, 0.0}});
+  CHECK_FALSE(unknown.has_value());
+}
+
 TEST_CASE("the layer that a node writes by its own word is its newest, whatever its number") {
   Base base;
   SUBCASE("held here") {

@@ -56,10 +56,13 @@ CLI::App* FleetCli::add_order(CLI::App& fleet, const char* name, const char* tex
 }
 
 void FleetCli::add_align(CLI::App& app) {
-  align_ = app.add_subcommand("align",
-                              "Shift and turn a node's newest layer in everybody's map; "
-                              "of a base alone");
-  align_->add_option("NODE", subject_, "The node's name")->required();
+  align_ =
+      app.add_subcommand("align", "Shift and turn a layer in everybody's map; of a base alone");
+  align_
+      ->add_option("WHAT", subject_,
+                   "A node's name: its newest layer; or, but not with --estimate, a layer: the "
+                   "beginning of its id")
+      ->required();
   auto* const shift =
       align_
           ->add_option("SHIFT", shift_,

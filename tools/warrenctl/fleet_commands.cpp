@@ -78,7 +78,7 @@ int run_one(const FleetOrderCommand& command, const std::string& socket) {
   control::Request request;
   auto& order = *request.mutable_fleet_order();
   order.set_what(what_of(command.what));
-  const bool may_be_layer = command.what == What::kRetract || command.what == What::kRestore;
+  const bool may_be_layer = command.what != What::kClear;
   tl::expected<bool, std::string> node = true;
   if (may_be_layer) node = is_node(socket, command.subject);
   if (!node) return failure(node.error());
@@ -103,11 +103,12 @@ int run_one(const FleetOrderCommand& command, const std::string& socket) {
   return 0;
 }
 
-std::string command_of(const std::string& node, const control::AlignEstimate& estimate) {
+// By its id: the node may have begun another layer by then.
+std::string command_of(const control::AlignEstimate& estimate) {
   std::ostringstream out;
-  out << std::fixed << std::setprecision(3) << "warrenctl align " << node << " " << estimate.x_m()
-      << " " << estimate.y_m() << " " << estimate.z_m() << " " << std::setprecision(2)
-      << estimate.yaw_rad() * kRadian;
+  out << std::fixed << std::setprecision(3) << "warrenctl align " << text_of(estimate.layer())
+      << " " << estimate.x_m() << " " << estimate.y_m() << " " << estimate.z_m() << " "
+      << std::setprecision(2) << estimate.yaw_rad() * kRadian;
   return out.str();
 }
 
@@ -133,7 +134,7 @@ int run_one(const AlignEstimateCommand& command, const std::string& socket) {
   if (!estimate.trusted()) {
     return failure("that is no good fit: the layers may not overlap, or lie too far off");
   }
-  std::cout << "to order it, at a base: " << command_of(command.node, estimate) << "\n";
+  std::cout << "to order it, at a base: " << command_of(estimate) << "\n";
   return 0;
 }
 

@@ -23,7 +23,7 @@ struct MessageWatchCommand {
 struct FleetOrderCommand {
   enum class What : std::uint8_t { kRetract, kRestore, kClear, kAlign };
   What what = What::kRetract;
-  std::string subject;  // a node's name; to retract or restore, also a layer
+  std::string subject;  // a node's name; but to clear also a layer
   std::array<double, 3> shift_fleet_m{};
   double yaw_deg = 0.0;
 };
