@@ -20,6 +20,7 @@ FleetDesk::FleetDesk(Parts parts)
 
 // Messages to this node alone come once more by themselves, if nobody fetched them.
 void FleetDesk::start() {
+  earlier_orders_came_ = true;
   for (const auto& held : parts_.replication.log_book().logs()) {
     for (const auto& [number, item] : held->log.items()) {
       if (item.kind == ItemKind::kCommand) (void)orders_.note(held->log.id().origin, item);
@@ -31,6 +32,7 @@ void FleetDesk::start() {
 void FleetDesk::on_item(const replication::ArrivedItem& arrived) {
   if (arrived.item.kind == ItemKind::kCommand) {
     (void)orders_.note(arrived.log.origin, arrived.item);
+    if (arrived.log.origin == parts_.self.number) earlier_orders_came_ = true;
   }
   messages_.take_in(arrived.log, arrived.number, arrived.item);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,6 +28,8 @@ namespace warren {
 class FleetDesk {
  public:
   static constexpr std::size_t kPathPartsMax = 1024;  // of the own path, in the own log
+  // Two bases of one name, a mistake, would else answer each other without a rest.
+  static constexpr Duration kBetweenGivingAgain = std::chrono::seconds(5);
   static constexpr const char* kStopping = "warrend is stopping";
 
   struct Parts {
@@ -47,7 +50,7 @@ class FleetDesk {
   void on_item(const replication::ArrivedItem& arrived);
   void on_ticked(MeshTime now, std::int64_t time_us, bool last);
   void on_committed(MeshTime now, bool stored);
-  void settle();
+  void settle(MeshTime now);
   void stop();
 
   // Answers when it is stored, or with the reason why it will not be, in words for the client.
@@ -83,6 +86,7 @@ class FleetDesk {
                                                            MemberId node) const;
   tl::expected<Order, std::string> alignment_of(const FleetOrder& order, MemberId node) const;
   Layers layers_of(const Order& order) const;
+  void give_again(MeshTime now);
   std::set<std::uint32_t> bases() const;
 
   Parts parts_;
@@ -91,6 +95,8 @@ class FleetDesk {
   OwnPath path_;
   std::vector<Waiting> waiting_;
   std::size_t layers_settled_ = 0;
+  bool earlier_orders_came_ = false;  // of another life of this base
+  MeshTime gave_again_ = MeshTime::min();
   bool stopped_ = false;
 };
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What FleetDesk does with the operator's orders.
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "daemon/control/layer_shift.hpp"
 #include "daemon/fleet/fleet_desk.hpp"
+#include "daemon/fleet/orders_again.hpp"
+#include "daemon/log.hpp"
 
 namespace warren {
 namespace {
@@ -26,10 +29,45 @@ std::set<std::uint32_t> FleetDesk::bases() const {
   return bases;
 }
 
-void FleetDesk::settle() {
+// They count at once: what the store refuses now it is asked to take again.
+void FleetDesk::give_again(MeshTime now) {
+  replication::LogBook& book = parts_.replication.log_book();
+  const bool due = earlier_orders_came_ && parts_.role == NodeRole::kBase &&
+                   book.own() != nullptr && now - kBetweenGivingAgain >= gave_again_;
+  if (!due) return;
+  earlier_orders_came_ = false;
+  std::vector<Order> of_this_life;
+  std::vector<Order> of_earlier_lives;
+  for (const auto& held : book.logs()) {
+    if (held->log.id().origin != parts_.self.number) continue;
+    for (const auto& [number, item] : held->log.items()) {
+      const auto order = read_order(item);
+      if (order) (held->own ? of_this_life : of_earlier_lives).push_back(*order);
+    }
+  }
+  std::vector<Order> orders = orders_to_give_again(of_this_life, of_earlier_lives);
+  if (orders.empty()) return;
+  std::vector<replication::Item> items;
+  for (Order& order : orders) {
+    order.revision = orders_.next_revision(order.node);
+    if (order.revision == 0) continue;
+    items.push_back(item_of(order));
+    (void)orders_.note(parts_.self.number, items.back());
+  }
+  gave_again_ = now;
+  const bool said = !items.empty() && book.append_all(now, items).has_value();
+  log_warning("fleet: orders of an earlier life of this base have come that would undo " +
+              std::to_string(orders.size()) + " of its orders: " +
+              (said ? "these are given again" : "these cannot be given again, its log is full"));
+  parts_.turn_soon();
+}
+
+void FleetDesk::settle(MeshTime now) {
   const std::size_t layers = parts_.map.own_layers().size() + parts_.map.loaded().size();
   const bool grown = std::exchange(layers_settled_, layers) != layers;
-  if (!orders_.settle(bases()) && !grown) return;
+  const bool changed = orders_.settle(bases());
+  give_again(now);
+  if (!changed && !grown) return;
   std::vector<LayerId> others;
   parts_.map.loaded().for_each([&](const Replica& layer) { others.push_back(layer.id()); });
   for (const LayerId& id : others) {

@@ -193,7 +193,7 @@ void FleetMesh::turn() {
   run_commands(now);
   adopt_copies();
   take_items();
-  desk_.settle();
+  desk_.settle(now);
   if (runner_) runner_->run();
   if (drained_ && is_drained(now)) {
     stop();

@@ -45,6 +45,12 @@ replication::StoredLog word_on(const std::optional<LayerId>& layer, std::uint64_
   return log;
 }
 
+replication::StoredLog log_of(const Order& order, std::uint64_t incarnation, bool own) {
+  replication::StoredLog log{{order.writer, incarnation}, own, {}, {}, {}};
+  log.items[0] = item_of(order);
+  return log;
+}
+
 struct Base {
   static FleetMeshConfig config() {
     FleetMeshConfig config;
@@ -132,6 +138,26 @@ TEST_CASE("an order that could not be stored leaves the one in force that it wou
   REQUIRE(orders.size() == 1);
   CHECK(orders.front().verb == Order::Verb::kRetract);
   CHECK(base.mesh.desk().orders().is_retracted(kFirst));
+}
+
+TEST_CASE("a base that lost its disk holds to its word when its earlier orders come back") {
+  Order earlier;
+  earlier.verb = Order::Verb::kRetract;
+  earlier.revision = 5;
+  earlier.writer = kBase;
+  earlier.node = kRobot;
+  Order now = earlier;
+  now.verb = Order::Verb::kRestore;
+  now.revision = 1;
+  Base base;
+  base.start({kFirst},
+             {word_on(kFirst, 1, 10), log_of(earlier, 0x11, false), log_of(now, 0x22, true)});
+  base.run_batches(1);
+  const std::vector<Order> orders = base.stored_orders();
+  REQUIRE(orders.size() == 1);
+  CHECK(orders.front().verb == Order::Verb::kRestore);
+  CHECK(orders.front().revision == 6);
+  CHECK_FALSE(base.mesh.desk().orders().is_retracted(kFirst));
 }
 
 TEST_CASE("an earlier layer of a node is aligned when it is named") {

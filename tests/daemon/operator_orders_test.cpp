@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "daemon/fleet/orders_again.hpp"
+
 namespace warren {
 namespace {
 
@@ -125,6 +127,40 @@ TEST_CASE("an older order of the same base changes nothing when it comes late") 
   note(orders, order_of(Order::Verb::kRetract, 4, kBase));
   CHECK_FALSE(orders.is_retracted(kLayer));
   CHECK(orders.next_revision(kRobot) == 6);
+}
+
+TEST_CASE("orders of a base that lost its disk are given again above those of its earlier life") {
+  const Order earlier = order_of(Order::Verb::kRetract, 5, kBase);
+  const std::vector<Order> now{order_of(Order::Verb::kRetract, 2, kBase, kLater),
+                               order_of(Order::Verb::kRestore, 1, kBase, std::nullopt)};
+  OperatorOrders orders;  // of anybody who has been there all the time
+  orders.settle({kBase});
+  note(orders, earlier);
+  for (const Order& order : now) note(orders, order);
+  CHECK(orders.is_retracted(kLayer));
+
+  std::vector<Order> again = orders_to_give_again(now, {earlier});
+  REQUIRE(again.size() == 2);
+  for (Order& order : again) {
+    order.revision = orders.next_revision(kRobot);
+    note(orders, order);
+  }
+  CHECK_FALSE(orders.is_retracted(kLayer));
+  CHECK(orders.is_retracted(kLater));
+  CHECK(orders_to_give_again(again, {earlier}).empty());
+}
+
+TEST_CASE("orders that an earlier life's do not undo are not given again") {
+  const std::vector<Order> now{order_of(Order::Verb::kRestore, 3, kBase)};
+  CHECK(orders_to_give_again(now, {}).empty());
+  CHECK(orders_to_give_again(now, {order_of(Order::Verb::kRetract, 2, kBase)}).empty());
+  CHECK(orders_to_give_again(now, {order_of(Order::Verb::kAlign, 9, kBase)}).empty());
+  CHECK(orders_to_give_again(now, {order_of(Order::Verb::kRetract, 9, kBase, kLater)}).empty());
+  Order elsewhere = order_of(Order::Verb::kRetract, 9, kBase, std::nullopt);
+  elsewhere.node = kRobot + 1;
+  CHECK(orders_to_give_again(now, {elsewhere}).empty());
+  // Of equal ones nobody can say which is the later.
+  CHECK(orders_to_give_again(now, {order_of(Order::Verb::kRetract, 3, kBase)}).size() == 1);
 }
 
 TEST_CASE("what a robot says it orders does not raise the revision that a base has to beat") {
