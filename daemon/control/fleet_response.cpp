@@ -60,6 +60,7 @@ void fill(const FleetReport& report, const FleetLayerReport& layer, control::Fle
   message.set_out_of_reach(layer.out_of_reach);
   message.set_unplaced(layer.unplaced);
   message.set_full(layer.full);
+  message.set_behind(layer.behind);
   if (layer.conflict) message.set_conflict(*layer.conflict);
 }
 

@@ -188,6 +188,7 @@ void FleetMesh::turn() {
     if (runner_) replication_.on_members(runner_->endpoint().members());
     watch_own_name();
   }
+  look_for_older_store();
   commit(now);
   replication_.advance(now);
   run_commands(now);

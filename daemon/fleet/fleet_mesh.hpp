@@ -84,7 +84,11 @@ class FleetMesh {
   void turn_soon();
   void turn();
   void commit(MeshTime now);
-  bool has_unstored() const { return !self_backlog_.empty() || replication_.has_unstored(); }
+  bool has_unstored() const {
+    return !self_backlog_.empty() || replication_.has_unstored() ||
+           store_is_behind_ != behind_said_;
+  }
+  void look_for_older_store();
   void add_moved(StoreBatch& rows);
   // Over this life and those before it on this store.
   std::map<std::string, std::uint64_t> counters();
@@ -138,6 +142,8 @@ class FleetMesh {
   MeshTime members_told_{};
   bool turn_posted_ = false;
   bool storing_ = false;
+  bool store_is_behind_ = false;  // others hold more of our layers than it knows
+  bool behind_said_ = false;      // to it
   bool stopped_ = false;
   MeshTime drain_until_ = kNever;
   std::function<void()> drained_;

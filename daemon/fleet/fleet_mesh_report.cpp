@@ -160,6 +160,7 @@ FleetLayerReport FleetMesh::report_of(const HeldLayer& held) const {
   report.held_somewhere = replica.holdings().highest({});
   report.full = held.full;
   fill_wanted(held, report);
+  report.behind = replication_.ahead_of_us().contains(held.id);
   const Newest newest = newest_of(held.id, writer, replication_.peers());
   report.latest = std::max(newest.revision, report.held_somewhere);
   if (newest.digest && report.latest == newest.revision &&

@@ -38,6 +38,7 @@ void FleetMesh::commit(MeshTime now) {
   StoreBatch rows = rows_of(batch);
   rows.self_layers = self_backlog_.take();
   rows.counters = counters();
+  rows.is_behind = behind_said_ = store_is_behind_;
   add_moved(rows);
   store_.write(std::move(rows),
                [this, number = batch.number](bool stored) { on_committed(number, stored); });
@@ -54,6 +55,18 @@ std::map<std::string, std::uint64_t> FleetMesh::counters() {
   counters["packets_out"] += counts.packets_out;
   counters["ip_bytes_out"] += counts.ip_bytes_out;
   return counters;
+}
+
+// As of a store that was put back from a copy. It is told so, and its next start closes the layers.
+void FleetMesh::look_for_older_store() {
+  if (store_is_behind_ || replication_.ahead_of_us().empty()) return;
+  store_is_behind_ = true;
+  const auto& [layer, ahead] = *replication_.ahead_of_us().begin();
+  log_error("fleet: " + name_of(ahead.holder) + " holds this node's layer " +
+            std::to_string(layer.number) + " up to revision " + std::to_string(ahead.held.number) +
+            ", and this node knew it up to " + std::to_string(ahead.known.number) +
+            " only: the store is older than what has left this node. Restart warrend: it then "
+            "begins a new layer; until then others may not get what is mapped here");
 }
 
 // Own layers that lie elsewhere now, whether or not anything in them changed: no revision of a pose
@@ -81,6 +94,7 @@ void FleetMesh::on_committed(std::uint64_t batch, bool stored) {
   } else {
     replication_.on_refused(batch);
     self_backlog_.on_refused();
+    behind_said_ = false;
     poses_stored_.clear();
     committed_ = MeshRunner::now() + kAfterRefusal;
   }

@@ -43,6 +43,7 @@ struct FleetLayerReport {
   bool out_of_reach = false;
   bool unplaced = false;
   bool full = false;               // no more room for it here
+  bool behind = false;             // an own one: the store is older than what others hold of it
   std::optional<double> conflict;  // share of its obstacles that the own map knows as free
 
   std::uint32_t lag_revisions() const {

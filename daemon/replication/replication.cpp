@@ -79,7 +79,10 @@ void Replication::on_telemetry(Peer& from, const mesh::TelemetryArrived& telemet
 
 void Replication::look_behind(const HeldLayer& own, const Peer& from) {
   const Announcement* const said = from.find(own.id);
-  if (said != nullptr && said->holdings.highest({}) > own.highest()) ++ahead_of_us_;
+  if (said == nullptr) return;
+  const Revision held = said->holdings.highest({});
+  if (held > own.highest())
+    ahead_of_us_.try_emplace(own.id, HeldAhead{from.id, held, own.highest()});
 }
 
 void Replication::on_map(Peer& from, const mesh::MapArrived& map) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,13 @@ struct StoreBatch {
   std::uint64_t number = 0;
   std::vector<StoredLayer> layers;
   std::vector<StoredLog> logs;
+};
+
+// What somebody else holds of an own layer.
+struct HeldAhead {
+  MemberId holder;
+  Revision held;
+  Revision known;  // here, then
 };
 
 // Keeps the layers of a fleet in step, over an endpoint. A pure state machine: it reads no clock,
@@ -82,9 +90,10 @@ class Replication final : public mesh::MapSource {
   WalkCounts digests_of(Slot slot) const { return walk_.counts_of(slot); }
   const std::map<MemberId, Peer>& peers() const { return node_.peers; }
   const RefusedCounts& refused() const { return node_.refused; }
-  // How often a member said that it holds more of a layer of ours than we ever wrote: our store is
-  // older than what left us. Then begin a new layer: a revision must not be written twice.
-  std::uint64_t ahead_of_us() const { return ahead_of_us_; }
+  // Own layers of which a member holds more than we knew to have written: our store is older than
+  // what has left us, and revisions may be written twice. Whoever drives this must see to it that
+  // another layer is begun.
+  const std::map<LayerId, HeldAhead>& ahead_of_us() const { return ahead_of_us_; }
   std::uint64_t announcements() const { return announcing_.sent(); }
   std::uint64_t announced_bytes() const { return announcing_.sent_bytes(); }
   // Who has what of every layer; bytes by class stand in peers().
@@ -121,7 +130,7 @@ class Replication final : public mesh::MapSource {
   LogExchange logs_;
   std::uint64_t batches_ = 0;
   std::size_t layers_placed_ = 0;  // so many have the poses that the logs hold
-  std::uint64_t ahead_of_us_ = 0;
+  std::map<LayerId, HeldAhead> ahead_of_us_;
 };
 
 }  // namespace warren::replication

@@ -89,6 +89,9 @@ struct StoreBatch {
   std::vector<LayerId> erased_layers;
   std::map<std::string, std::uint64_t> counters;            // in place of what they were
   std::map<std::string, std::vector<std::uint8_t>> states;  // likewise; empty: erased
+  // Others have heard of commits that this store does not know: it was put back from a copy. The
+  // next start treats it as one that lost them.
+  bool is_behind = false;
 
   // Roughly, on the heap.
   std::size_t memory_bytes() const;

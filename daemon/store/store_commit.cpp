@@ -110,7 +110,8 @@ tl::expected<CommitReport, StoreFailure> Store::commit(std::span<const StoreBatc
   s.database.run("COMMIT");
   if (!s.database.ok()) return tl::unexpected(failed(s, batches));
 
-  s.mark.note(s.row.store, s.row.commits);
+  for (const StoreBatch* const batch : batches) s.is_behind = s.is_behind || batch->is_behind;
+  s.mark.note(s.row.store, s.row.commits + (s.is_behind ? 1 : 0));
   s.layers.committed();
   s.must_load = false;
   s.needs_room = false;

@@ -41,6 +41,7 @@ struct Store::State {
   NamedTable named;
   bool must_load = false;   // a transaction failed: memory may be ahead of the file
   bool needs_room = false;  // the last commit found none
+  bool is_behind = false;   // as a batch said
   std::uint64_t checkpoints_failed = 0;
 };
 

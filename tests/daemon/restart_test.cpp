@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole daemons that end and start again on the same store.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include <asio/io_context.hpp>
 #include <doctest/doctest.h>
@@ -208,6 +210,49 @@ TEST_CASE("without a store a restart begins anew, under another layer") {
   take_scans(robot, 1, 1);
   CHECK_FALSE(same_layer(settled(robot, 1).publishing().layer(), before));
   CHECK_FALSE(std::filesystem::exists(config.store.file));
+}
+
+TEST_CASE("a robot whose store was put back from a copy hears of it, and begins a new layer") {
+  Loopback fleet;
+  Config config = fleet.config("robot-1", 1, {});
+  config.store.file = fleet.file("robot.db");
+  const auto copy = [&](const std::string& from, const std::string& to) {
+    for (const std::string& ending : {std::string(".db"), std::string(".db-commits")}) {
+      std::filesystem::copy_file(fleet.file(from + ending), fleet.file(to + ending),
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  };
+  {
+    RunningDaemon robot(config);
+    take_scans(robot, 1, 1, 64);
+    (void)settled(robot, 1);
+  }
+  copy("robot", "kept");
+  RunningDaemon base(fleet.config("base", 0, {1}));
+  {
+    RunningDaemon robot(config);
+    take_scans(robot, 2, 3);
+    (void)settled(robot, 4);
+    wait_for(base, has_all_of("robot-1"));
+  }
+  copy("kept", "robot");
+  {
+    RunningDaemon robot(config);
+    wait_for(robot, [](const control::FleetStatus& status) {
+      const control::FleetNode* const node = node_named(status, "robot-1");
+      return node != nullptr && node->layers_size() == 1 && node->layers(0).behind();
+    });
+  }
+  RunningDaemon robot(config);
+  take_scans(robot, 5, 3);
+  wait_for(base, [](const control::FleetStatus& status) {
+    const control::FleetNode* const node = node_named(status, "robot-1");
+    return node != nullptr &&
+           std::any_of(node->layers().begin(), node->layers().end(), [](const auto& layer) {
+             return layer.layer().number() == 1 && layer.latest() > 0 && layer.digest_equal() &&
+                    !layer.unplaced();
+           });
+  });
 }
 
 }  // namespace warren

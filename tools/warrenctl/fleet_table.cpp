@@ -69,6 +69,7 @@ std::string what_lacks(const control::FleetLayer& layer) {
 
 // What an operator wants to know of the layer, in words.
 std::string state_of(const control::FleetNode& node, const control::FleetLayer& layer) {
+  if (layer.behind()) return "OTHERS HOLD MORE OF IT than is stored here: restart warrend";
   if (layer.own()) return "is written here";
   std::string text;
   if (layer.lag_revisions() == 0 && layer.latest() > 0) {

@@ -236,6 +236,26 @@ TEST_CASE("an old copy of the file that is put back is found out") {
   CHECK(commit_one(store, completed) == BatchResult::kLayerClosed);
 }
 
+TEST_CASE("a store that others are ahead of begins anew at its next start, and at no later one") {
+  const TemporaryDirectory directory;
+  const StoreConfig config = small_config(directory / "store.db");
+  StoreScenario scenario(5);
+  {
+    Store store = std::move(opened(config).store);
+    for (int i = 0; i < 10; ++i) commit_one(store, scenario.step());
+    StoreBatch word;
+    word.is_behind = true;
+    CHECK(commit_one(store, word) == BatchResult::kStored);
+    commit_one(store, scenario.step());
+  }
+  {
+    const Store::Opened again = opened(config);
+    CHECK(again.report.rolled_back);
+    for (const StoredLayer& layer : again.store.layers()) CHECK(layer.closed == layer.head.own);
+  }
+  CHECK_FALSE(opened(config).report.rolled_back);
+}
+
 TEST_CASE("damaged files are kept, up to a bound") {
   const TemporaryDirectory directory;
   const StoreConfig config = small_config(directory / "store.db");
