@@ -20,8 +20,11 @@ TEST_CASE("a base copies what a robot maps, merges it, and saves it by the robot
   RunningDaemon base(fleet.config("base", 0, {1}));
   CHECK_FALSE(std::filesystem::exists(base.ingest_socket()));
   take_scans(robot, 1, 3);
-  const std::string published = settled(robot, 3).publishing().digest();
-  const control::FleetStatus status = wait_for(base, has_all_of("robot-1"));
+  const control::Publishing published = settled(robot, 3).publishing();
+  const control::FleetStatus status = wait_for(base, [&](const control::FleetStatus& now) {
+    return has_all_of("robot-1")(now) &&
+           node_named(now, "robot-1")->layers(0).latest() == published.revision();
+  });
   CHECK(status.nodes(0).is_self());
   CHECK(status.nodes(0).role() == "base");
   const control::FleetNode& heard = *node_named(status, "robot-1");
@@ -40,7 +43,7 @@ TEST_CASE("a base copies what a robot maps, merges it, and saves it by the robot
   REQUIRE(client.ask(save).has_map_saved());
   const auto copy = read_layer(fleet.file("copy.layer"));
   REQUIRE(copy.has_value());
-  CHECK(hex_of(copy->digest().root()) == published);
+  CHECK(hex_of(copy->digest().root()) == published.digest());
   save.mutable_map_save()->set_path(fleet.file("copy.ply").string());
   CHECK(client.ask(save).map_saved().voxels() > 0);
   save.mutable_map_save()->set_of("robot-9");
