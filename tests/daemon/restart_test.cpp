@@ -148,8 +148,12 @@ TEST_CASE("a store that is put back from an older copy ends its layer, and the n
   const auto map_on = [&](std::uint64_t first, std::size_t points) {
     RunningDaemon robot(config);
     take_scans(robot, first, 2, points);
-    settled(robot, first + 1);
-    return node_named(wait_for(base, has_all_of("robot-1")), "robot-1")->layers(0).latest();
+    const std::uint32_t published = settled(robot, first + 1).publishing().revision();
+    wait_for(base, [&](const control::FleetStatus& status) {
+      return has_all_of("robot-1")(status) &&
+             node_named(status, "robot-1")->layers(0).held_everywhere() == published;
+    });
+    return published;
   };
   const std::uint32_t stored = map_on(1, 128);
   std::filesystem::copy_file(fleet.file("robot.db"), fleet.file("old.db"));

@@ -87,6 +87,28 @@ TEST_CASE("copies take no more memory than they may, and go on when they have be
   CHECK(book.apply({}, copy, encoded(origin, missed).bytes).result == ApplyResult::kApplied);
 }
 
+TEST_CASE("what was at rest in the life before comes back at rest where it would fill the memory") {
+  Replica origin{kLayer, kDefaultResolution};
+  std::vector<CodedBlock> blocks;
+  for (BlockOrdinal i = 0; i < 4000; ++i) blocks.push_back(block_with(i, 1, VoxelCode::free()));
+  test::publish(origin, blocks);
+  const auto restored_with = [&](std::size_t bytes_max) {
+    std::vector<StoredBlock> stored;
+    origin.for_each_changed({}, {}, [&](BlockOrdinal block, const LayerBlock& found) {
+      stored.push_back({block, found.history.latest(), found.codes});
+      return true;
+    });
+    LayerBook book({4, 8192, bytes_max});
+    REQUIRE(book.restore(
+        std::make_unique<Replica>(kLayer, kDefaultResolution, origin.holdings(), stored)));
+    CHECK(book.find(kLayer)->replica().digest().root() == origin.digest().root());
+    CHECK(book.find(kLayer)->replica().known_voxels() == origin.known_voxels());
+    return book.memory_bytes();
+  };
+  const std::size_t awake = restored_with(100'000'000);
+  CHECK(restored_with(awake) < awake / 4);
+}
+
 TEST_CASE("a revision that is not stored is not told") {
   Books books;
   REQUIRE(books.book.add_own(books.origin));
