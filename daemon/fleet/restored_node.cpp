@@ -27,12 +27,15 @@ const SelfLayerHead* continued(const StoredLayer& layer, const SelfMapConfig& co
   return head != heads.end() && is_of(config, *head) ? &*head : nullptr;
 }
 
-// Its layer may go on, or nothing of it was ever published.
-bool goes_on(const SelfLayerHead& head, const SelfMapConfig& config,
-             const std::vector<StoredLayer>& layers) {
-  if (!is_of(config, head)) return false;
-  return std::none_of(layers.begin(), layers.end(), [&](const StoredLayer& layer) {
-    return layer.head.own && layer.closed && layer.head.id.number == head.number;
+bool is_closed(std::uint32_t number, const std::vector<StoredLayer>& layers) {
+  return std::any_of(layers.begin(), layers.end(), [&](const StoredLayer& layer) {
+    return layer.head.own && layer.closed && layer.head.id.number == number;
+  });
+}
+
+bool has_successor(const SelfLayerHead& head, const std::vector<SelfLayerHead>& heads) {
+  return std::any_of(heads.begin(), heads.end(), [&](const SelfLayerHead& other) {
+    return other.frame_epoch == head.frame_epoch && other.number > head.number;
   });
 }
 
@@ -59,11 +62,20 @@ std::optional<StoreFailure> restore_layers(Store& store, const SelfMapConfig& co
 std::optional<StoreFailure> restore_self_maps(Store& store, const SelfMapConfig& config,
                                               StoredMap& map) {
   const std::vector<StoredLayer> layers = store.layers();
-  for (const SelfLayerHead& head : store.self_layers()) {
+  const std::vector<SelfLayerHead> heads = store.self_layers();
+  for (const SelfLayerHead& head : heads) {
     map.next_number = std::max(map.next_number, head.number + 1);
-    if (!goes_on(head, config, layers)) continue;
+  }
+  for (SelfLayerHead head : heads) {
+    const bool closed = is_closed(head.number, layers);
+    if (!is_of(config, head) || (closed && has_successor(head, heads))) continue;
     auto voxels = store.self_map(head);
     if (!voxels) return voxels.error();
+    if (closed) {
+      // What was measured stays: it is published, and stored, anew.
+      head.number = map.next_number++;
+      head.cursor = 0;
+    }
     map.layers.emplace_back(head, std::move(*voxels));
   }
   return std::nullopt;

@@ -42,8 +42,8 @@ struct StoredNode {
 
 // Takes all out of a store that has just been opened. Own layers, and the self-map behind them, go
 // on if the store never lost one of their revisions and they were mapped with this config; else
-// they are held like those of others. After such a loss the own log is not continued either. The
-// error is the disk's, in words for the operator.
+// they are held like those of others. After such a loss the self-map goes on under new layers, and
+// the own log is not continued. The error is the disk's, in words for the operator.
 tl::expected<StoredNode, std::string> restore_node(Store& store, const StartReport& start,
                                                    const SelfMapConfig& config);
 

@@ -27,6 +27,17 @@ Config quick(const Loopback& fleet) {
   return config;
 }
 
+std::string digest_of_copy(const RunningDaemon& daemon, const std::string& of,
+                           const std::filesystem::path& file) {
+  control::Request save;
+  save.mutable_map_save()->set_path(file.string());
+  save.mutable_map_save()->set_of(of);
+  REQUIRE(TestClient(daemon.control_socket()).ask(save).has_map_saved());
+  const auto copy = read_layer(file);
+  REQUIRE(copy.has_value());
+  return hex_of(copy->digest().root());
+}
+
 }  // namespace
 
 TEST_CASE("a robot that starts again goes on with its map and its layer") {
@@ -68,13 +79,7 @@ TEST_CASE("a base that starts again has the maps of robots that are gone, and th
   CHECK_FALSE(node_named(status, "robot-1")->has_link());
   CHECK(count_named(status.lifetime(), "starts") == 2);
   CHECK(count_named(status.lifetime(), "packets_in") > status.packets_in());
-  control::Request save;
-  save.mutable_map_save()->set_path(fleet.file("copy.layer").string());
-  save.mutable_map_save()->set_of("robot-1");
-  REQUIRE(TestClient(base.control_socket()).ask(save).has_map_saved());
-  const auto copy = read_layer(fleet.file("copy.layer"));
-  REQUIRE(copy.has_value());
-  CHECK(hex_of(copy->digest().root()) == digest);
+  CHECK(digest_of_copy(base, "robot-1", fleet.file("copy.layer")) == digest);
 }
 
 TEST_CASE("after a restart a robot's layer goes on at its neighbours, from where it was") {
@@ -139,49 +144,6 @@ TEST_CASE("a damaged store is moved aside, and the node begins anew") {
   CHECK(settled(robot, 1).map().scans() == 1);
 }
 
-TEST_CASE("a store that is put back from an older copy ends its layer, and the node goes on") {
-  Loopback fleet;
-  Config config = fleet.config("robot-1", 1, {});
-  config.store.file = fleet.file("robot.db");
-  RunningDaemon base(fleet.config("base", 0, {1}));
-  // The revision that the base has then.
-  const auto map_on = [&](std::uint64_t first, std::size_t points) {
-    RunningDaemon robot(config);
-    take_scans(robot, first, 2, points);
-    const std::uint32_t published = settled(robot, first + 1).publishing().revision();
-    wait_for(base, [&](const control::FleetStatus& status) {
-      return has_all_of("robot-1")(status) &&
-             node_named(status, "robot-1")->layers(0).held_everywhere() == published;
-    });
-    return published;
-  };
-  const std::uint32_t stored = map_on(1, 128);
-  std::filesystem::copy_file(fleet.file("robot.db"), fleet.file("old.db"));
-  const std::uint32_t lost = map_on(3, 2048);
-  REQUIRE(lost > stored);
-  std::filesystem::copy_file(fleet.file("old.db"), fleet.file("robot.db"),
-                             std::filesystem::copy_options::overwrite_existing);
-  const auto has_both = [&](const control::FleetStatus& status) {
-    const control::FleetNode* const node = node_named(status, "robot-1");
-    const auto is_good = [&](const control::FleetLayer& layer) {
-      return layer.layer().number() == 0 ? layer.held_everywhere() == lost
-                                         : layer.latest() > 0 && layer.lag_revisions() == 0;
-    };
-    return node != nullptr && node->layers_size() == 2 &&
-           std::all_of(node->layers().begin(), node->layers().end(), is_good);
-  };
-  {
-    RunningDaemon robot(config);
-    take_scans(robot, 5, 2);
-    CHECK(settled(robot, 2).publishing().layer().number() == 1);
-    // The base has the new layer, and the robot gets back from it what it lost of the old one.
-    wait_for(base, has_both);
-    CHECK(wait_for(robot, has_both).batches_failed() == 0);
-  }
-  const RunningDaemon again(config);
-  wait_for(again, has_both);
-}
-
 TEST_CASE("two daemons cannot have one store, and a folder that is missing is named") {
   Loopback fleet;
   RunningDaemon robot(quick(fleet));
@@ -216,47 +178,34 @@ TEST_CASE("without a store a restart begins anew, under another layer") {
   CHECK_FALSE(std::filesystem::exists(config.store.file));
 }
 
-TEST_CASE("a robot whose store was put back from a copy hears of it, and begins a new layer") {
+TEST_CASE("a second base, and one that lost its disk, catch up from a robot of another's map") {
   Loopback fleet;
-  Config config = fleet.config("robot-1", 1, {});
-  config.store.file = fleet.file("robot.db");
-  const auto copy = [&](const std::string& from, const std::string& to) {
-    for (const std::string& ending : {std::string(".db"), std::string(".db-commits")}) {
-      std::filesystem::copy_file(fleet.file(from + ending), fleet.file(to + ending),
-                                 std::filesystem::copy_options::overwrite_existing);
-    }
-  };
+  Config base_config = fleet.config("base", 0, {1, 2});
+  base_config.store.file = fleet.file("base.db");
+  RunningDaemon relay(fleet.config("robot-2", 2, {1}));
+  std::string digest;
   {
-    RunningDaemon robot(config);
-    take_scans(robot, 1, 1, 64);
-    (void)settled(robot, 1);
-  }
-  copy("robot", "kept");
-  RunningDaemon base(fleet.config("base", 0, {1}));
-  {
-    RunningDaemon robot(config);
-    take_scans(robot, 2, 3);
-    (void)settled(robot, 4);
+    RunningDaemon base(base_config);
+    RunningDaemon robot(fleet.config("robot-1", 1, {}));
+    take_scans(robot, 1, 2);
+    digest = settled(robot, 2).publishing().digest();
     wait_for(base, has_all_of("robot-1"));
+    wait_for(relay, has_all_of("robot-1"));
   }
-  copy("kept", "robot");
-  {
-    RunningDaemon robot(config);
-    wait_for(robot, [](const control::FleetStatus& status) {
-      const control::FleetNode* const node = node_named(status, "robot-1");
-      return node != nullptr && node->layers_size() == 1 && node->layers(0).behind();
-    });
+  // The writer is gone for good, and so is the base's disk.
+  for (const auto& entry :
+       std::filesystem::directory_iterator(fleet.file("base.db").parent_path())) {
+    if (entry.path().filename().string().starts_with("base.db")) std::filesystem::remove(entry);
   }
-  RunningDaemon robot(config);
-  take_scans(robot, 5, 3);
-  wait_for(base, [](const control::FleetStatus& status) {
-    const control::FleetNode* const node = node_named(status, "robot-1");
-    return node != nullptr &&
-           std::any_of(node->layers().begin(), node->layers().end(), [](const auto& layer) {
-             return layer.layer().number() == 1 && layer.latest() > 0 && layer.digest_equal() &&
-                    !layer.unplaced();
-           });
-  });
+  base_config.mesh.interfaces[0].seeds = fleet.config("base", 0, {2}).mesh.interfaces[0].seeds;
+  Config second_config = fleet.config("base", 3, {2});
+  second_config.node.name = "base-2";
+  const RunningDaemon base(base_config);
+  const RunningDaemon second(second_config);
+  for (const RunningDaemon* late : {&base, &second}) {
+    wait_for(*late, has_all_of("robot-1"));
+    CHECK(digest_of_copy(*late, "robot-1", fleet.file("copy.layer")) == digest);
+  }
 }
 
 }  // namespace warren

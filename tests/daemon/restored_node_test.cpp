@@ -90,6 +90,39 @@ TEST_CASE("a log of which numbers may be lost is not continued") {
   CHECK_FALSE(lived.restored(SelfMapConfig{}, true).fleet.logs.at(0).own);
 }
 
+TEST_CASE("the self-map goes on under a new layer where the old one may not") {
+  Lived lived;
+  StoreBatch batch = life();
+  // Others brought back a revision of it that was lost.
+  LayerWrite completed = batch.layers[0];
+  completed.head.own = false;
+  completed.head.holdings = Holdings({2});
+  completed.blocks.clear();
+  StoreBatch closing;
+  closing.layers = {completed};
+  REQUIRE(test::commit_one(lived.opened.store, closing) == BatchResult::kStored);
+  StoredNode node = lived.restored(SelfMapConfig{});
+  CHECK(node.own.empty());
+  CHECK(node.layers_ended == 1);
+  REQUIRE(node.map.layers.size() == 1);
+  SelfLayerHead head = node.map.layers[0].first;
+  CHECK(head.number == 4);
+  CHECK(head.frame_epoch == 12);
+  CHECK(head.scans == 5);
+  CHECK(head.cursor == 0);
+  CHECK(node.map.next_number == 5);
+  // Once it is stored so, it is that one alone.
+  StoreBatch carried;
+  carried.self_layers = {{head, {}}};
+  carried.self_layers[0].head.cursor = 6;
+  REQUIRE(test::commit_one(lived.opened.store, carried) == BatchResult::kStored);
+  node = lived.restored(SelfMapConfig{});
+  REQUIRE(node.map.layers.size() == 1);
+  CHECK(node.map.layers[0].first.number == 4);
+  CHECK(node.map.layers[0].first.cursor == 6);
+  CHECK(node.map.next_number == 5);
+}
+
 TEST_CASE("a map of which nothing was published goes on, and its number is not used again") {
   TemporaryDirectory directory;
   Store::Opened opened = test::opened(test::small_config(directory / "node.db"));
