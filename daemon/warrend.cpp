@@ -91,7 +91,9 @@ Warrend::Warrend(asio::io_context& io, const Config& config, std::filesystem::pa
                [this](const ControlRequest& request, const ControlService::Respond& respond) {
                  return service_.handle(request, respond);
                }),
-      watchdog_(io, mapper_, fleet_, [this] { dependencies_.notify("WATCHDOG=1"); }) {}
+      watchdog_(io, mapper_, fleet_, [this] {
+        if (service_.files_progress()) dependencies_.notify("WATCHDOG=1");
+      }) {}
 
 Mapper::Dependencies Warrend::mapper_dependencies() {
   const auto deliver = [this](const QueuedScan& scan, const ScanReceipt& receipt) {
@@ -103,7 +105,14 @@ Mapper::Dependencies Warrend::mapper_dependencies() {
 }
 
 ControlService::Dependencies Warrend::service_dependencies() {
-  return {io_, mapper_, fleet_, ingest_, config_, dependencies_.save_map, WARREN_VERSION};
+  return {io_,
+          mapper_,
+          fleet_,
+          ingest_,
+          config_,
+          dependencies_.save_map,
+          WARREN_VERSION,
+          dependencies_.file_time_max};
 }
 
 void Warrend::request_stop() {

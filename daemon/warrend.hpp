@@ -33,6 +33,8 @@ class Warrend {
     std::function<void(const std::string&)> notify = [](const std::string&) {};
     std::optional<std::chrono::microseconds> watchdog_time{};
     std::function<void()> before_scan = [] {};  // tests hold the mapping thread here
+    // After that long with one file the thread that reads and writes them counts as hanging.
+    std::chrono::steady_clock::duration file_time_max = std::chrono::minutes(10);
   };
 
   // Opens the sockets and starts the mapping thread. The error says what to do. The file is what a

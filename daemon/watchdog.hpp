@@ -15,7 +15,8 @@ namespace warren {
 
 // Feeds the service manager's watchdog only while all threads make progress: its timer runs on the
 // io thread, and between two of its ticks the mapping thread must have answered or taken a scan,
-// and the fleet thread and that of the store, if there is one, have answered.
+// and the fleet thread and that of the store, if there is one, have answered. That of files, whose
+// work takes as long as a disk takes, is looked after by `feed`.
 class Watchdog {
  public:
   Watchdog(asio::io_context& io, Mapper& mapper, Fleet& fleet, std::function<void()> feed)

@@ -38,6 +38,7 @@ class ControlService {
     const Config& config;  // as it is in force
     MapSaver save_map;
     std::string version;
+    std::chrono::steady_clock::duration file_time_max;  // that one may take
   };
 
   explicit ControlService(Dependencies dependencies);
@@ -45,6 +46,12 @@ class ControlService {
   ~ControlService();
   ControlService(const ControlService&) = delete;
   ControlService& operator=(const ControlService&) = delete;
+
+  // False while the thread that reads and writes files has been with one for too long.
+  bool files_progress() const {
+    return pending_files_ == 0 ||
+           std::chrono::steady_clock::now() < files_progress_ + parts_.file_time_max;
+  }
 
   using Respond = std::function<void(std::string)>;
   Hurry handle(const ControlRequest& request, const Respond& respond);
@@ -86,6 +93,8 @@ class ControlService {
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   Subscriptions subscriptions_;
   std::size_t pending_files_ = 0;
+  std::chrono::steady_clock::time_point
+      files_progress_{};  // one was begun by a free thread, or ended
   asio::thread_pool files_{1};
 };
 

@@ -73,9 +73,10 @@ void ControlService::load(const LoadOrder& order, const Respond& done) {
 }
 
 ControlService::Respond ControlService::begin_file_work(const Respond& respond) {
-  ++pending_files_;
+  if (pending_files_++ == 0) files_progress_ = std::chrono::steady_clock::now();
   return [this, respond](std::string frame) {
     --pending_files_;
+    files_progress_ = std::chrono::steady_clock::now();
     respond(std::move(frame));
   };
 }

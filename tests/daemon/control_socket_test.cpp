@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <fstream>
+#include <future>
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -204,6 +207,45 @@ TEST_CASE("the watchdog is fed while the mapping thread is free and not while it
   daemon.gate().open();
   CHECK(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
   notifications.wait_for("WATCHDOG=1", seen);
+}
+
+TEST_CASE("the watchdog is not fed while a file takes far too long") {
+  std::atomic<int> fed{0};
+  std::promise<void> disk;
+  const std::shared_future<void> disk_answers(disk.get_future());
+  Warrend::Dependencies dependencies{[&](const MapSnapshot&, const std::filesystem::path&,
+                                         PictureColours) -> tl::expected<SaveReport, std::string> {
+    disk_answers.wait();
+    return SaveReport{};
+  }};
+  dependencies.watchdog_time = std::chrono::milliseconds(8);
+  dependencies.file_time_max = std::chrono::milliseconds(200);
+  dependencies.notify = [&](const std::string& state) { fed += state == "WATCHDOG=1" ? 1 : 0; };
+  RunningDaemon daemon({}, dependencies);
+  TestClient client = greeted_client(daemon.ingest_socket());
+  REQUIRE(client.write(scan_frame(1)));
+  REQUIRE(client.read_receipt().outcome() == ingest::ScanReceipt::TAKEN);
+  TestClient saver(daemon.control_socket());
+  REQUIRE(saver.write(framed([&] {
+    control::Request save;
+    save.mutable_map_save()->set_path(daemon.file("map.bt").string());
+    return save.SerializeAsString();
+  }())));
+  const auto feeds_in = [&](std::chrono::milliseconds time) {
+    const int before = fed;
+    std::this_thread::sleep_for(time);
+    return fed - before;
+  };
+  int starved = 0;
+  for (int i = 0; i < 100 && starved < 3; ++i) {
+    starved = feeds_in(std::chrono::milliseconds(100)) == 0 ? starved + 1 : 0;
+  }
+  CHECK(starved == 3);
+  CHECK(daemon.status().queue_capacity() > 0);  // all other threads answer
+  disk.set_value();
+  int again = 0;
+  for (int i = 0; i < 100 && again == 0; ++i) again = feeds_in(std::chrono::milliseconds(100));
+  CHECK(again > 0);
 }
 
 TEST_CASE("a stop integrates what has arrived and answers it before it closes") {
