@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "daemon/replication/holdings_walk.hpp"
+
 namespace warren::replication {
 
 std::optional<DiffPacket> encode_within(const Replica& layer, EncodeRequest request) {
@@ -22,6 +24,18 @@ std::optional<DiffPacket> encode_within(const Replica& layer, EncodeRequest requ
     packet = layer.encode(request);
   }
   return packet;
+}
+
+bool append_within(std::vector<std::uint8_t>& message, Wish wish, std::size_t limit) {
+  const std::size_t before = message.size();
+  for (std::size_t intervals = Holdings::kIntervalsMax; intervals > 0; intervals /= 2) {
+    append(message, wish);
+    if (message.size() <= limit) return true;
+    message.resize(before);
+    if (before > 1) return false;
+    wish.holdings = coarsened(wish.holdings, intervals);
+  }
+  return false;
 }
 
 }  // namespace warren::replication

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/replication/encode_within.hpp"
 #include "daemon/replication/holdings_walk.hpp"
 #include "daemon/replication/near_keys.hpp"
 
@@ -15,19 +16,6 @@ constexpr int kFruitlessMax = 3;
 constexpr Duration kGapLeast = std::chrono::milliseconds(300);
 // Around this node more is asked for than the radius, and anew when it has moved by half of that.
 constexpr double kMargin = 0.25;
-
-// Alone in a message it may say less of what is held, so that it fits.
-bool append_within(std::vector<std::uint8_t>& message, Wish wish, std::size_t limit) {
-  const std::size_t before = message.size();
-  for (std::size_t intervals = Holdings::kIntervalsMax; intervals > 0; intervals /= 2) {
-    append(message, wish);
-    if (message.size() <= limit) return true;
-    message.resize(before);
-    if (before > 1) return false;
-    wish.holdings = coarsened(wish.holdings, intervals);
-  }
-  return false;
-}
 
 Duration rtt_of(const Peer& peer) { return peer.link.rtt.value_or(Duration{}); }
 
