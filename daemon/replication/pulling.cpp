@@ -17,6 +17,12 @@ constexpr Duration kGapLeast = std::chrono::milliseconds(300);
 // Around this node more is asked for than the radius, and anew when it has moved by half of that.
 constexpr double kMargin = 0.25;
 
+bool lacks_all_somewhere(const Holdings& holdings, const KeySet& keys) {
+  return std::any_of(
+      keys.intervals.begin(), keys.intervals.end(),
+      [&](const KeyInterval& interval) { return holdings.lowest(interval) == Revision{}; });
+}
+
 Duration rtt_of(const Peer& peer) { return peer.link.rtt.value_or(Duration{}); }
 
 }  // namespace
@@ -166,8 +172,10 @@ std::vector<Candidate> Pulling::candidates(const HeldLayer& layer, const Pull& p
          .is_origin = id.number == layer.id.origin && announced->hops == 0,
          .gets_it_here = announced->provider == node_.config.self,
          .leads = holds_more(announced->holdings, layer.replica().holdings(), pull.keys),
+         .is_partial = lacks_all_somewhere(announced->holdings, pull.keys),
          .highest = announced->holdings.highest({}).number,
          .rate_bit_s = peer.link.rate_bit_s,
+         .loss = peer.link.loss_in,
          .is_idle = idle != pull.idle_until.end() && idle->second > node_.now,
          .is_current = pull.provider == id});
   }

@@ -122,6 +122,36 @@ TEST_CASE("nobody is told the same by two, but for a moment when the way changes
   CHECK(fleet.failures().empty());
 }
 
+TEST_CASE("who hears the writer badly gets its map from one who hears it well") {
+  for (const double loss : {0.7, 0.85}) {
+    Fleet fleet(small_fleet(3, 1));
+    LinkConfig bad;
+    bad.capacity = Capacity(1e6);
+    bad.delay = std::chrono::milliseconds(5);
+    bad.loss = loss;
+    fleet.mesh().network().set_link(fleet.now(), 0, 2, bad);
+    fleet.mesh().network().set_link(fleet.now(), 2, 0, bad);
+    fleet.start_all();
+    run(fleet, seconds(60));
+    std::uint32_t most = 0;
+    std::uint64_t behind = 0;
+    for (int i = 0; i < 240; ++i) {
+      run(fleet, std::chrono::milliseconds(500));
+      const Replica& layer = *fleet.node(0).own.back();
+      const auto* const copy = fleet.node(2).replication->book().find(layer.id());
+      REQUIRE(copy != nullptr);
+      const std::uint32_t lag =
+          layer.holdings().at(0).number - copy->replica().holdings().lowest({}).number;
+      most = std::max(most, lag);
+      behind += lag > 1 ? 1 : 0;
+    }
+    const auto& reader = *fleet.node(2).replication;
+    CHECK(reader.pull_of(fleet.node(0).own.back()->id())->provider == MemberId{2});
+    CHECK(behind == 0);
+    CHECK(most <= 1);
+  }
+}
+
 TEST_CASE("thirty that agree say nothing") {
   auto config = small_fleet(30, 3);
   config.check = false;

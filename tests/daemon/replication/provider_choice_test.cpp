@@ -51,6 +51,34 @@ TEST_CASE("the present provider stays unless another is better by much") {
   CHECK(choose_provider(candidates).provider == MemberId{1});
 }
 
+TEST_CASE("a link at the fringe is worth less than a way through another, until it is good again") {
+  std::vector<Candidate> candidates{{.member = {2}, .hops = 1, .leads = true}, kOrigin};
+  candidates[1].is_current = true;
+  candidates[1].loss = 0.5;
+  CHECK(choose_provider(candidates).provider == MemberId{1});
+  candidates[1].loss = 0.7;
+  CHECK(choose_provider(candidates) == Choice{MemberId{2}, 2});
+  candidates[1].is_current = false;
+  candidates[0].is_current = true;
+  candidates[1].loss = 0.5;
+  CHECK(choose_provider(candidates).provider == MemberId{2});
+  candidates[1].loss = 0.4;
+  CHECK(choose_provider(candidates).provider == MemberId{1});
+  // Alone it is taken all the same.
+  candidates[1].loss = 0.9;
+  candidates.erase(candidates.begin());
+  CHECK(choose_provider(candidates).provider == MemberId{1});
+}
+
+TEST_CASE("who copies a part alone is passed over for a whole copy further away") {
+  std::vector<Candidate> candidates{
+      {.member = {2}, .hops = 1, .is_partial = true, .is_current = true},
+      {.member = {3}, .hops = 2}};
+  CHECK(choose_provider(candidates) == Choice{MemberId{3}, 3});
+  candidates.pop_back();
+  CHECK(choose_provider(candidates) == Choice{MemberId{2}, 2});
+}
+
 TEST_CASE("a provider that does nothing is left for another, but kept if it is the only one") {
   std::vector<Candidate> candidates{
       {.member = {2}, .hops = 1, .leads = true, .is_idle = true, .is_current = true},
