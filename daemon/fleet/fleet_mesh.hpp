@@ -62,6 +62,10 @@ class FleetMesh {
   void stop();
 
   FleetReport report();
+  // Who has what of every layer, as far as replication knows.
+  std::vector<replication::LayerReport> replication_report() {
+    return replication_.report(mesh::MeshRunner::now());
+  }
   // The newest layer of the node of this name that is copied here; null if there is none.
   const Replica* newest_copy_of(const std::string& name) const;
   std::string name_of(MemberId member) const;

@@ -37,6 +37,17 @@ case_a_base_has_what_robots_map_that_it_never_hears() {
   for name in robot-1 robot-2 base; do stop_node "$name"; done
 }
 
+# Three of them in one process; they copy nothing and hear only the base.
+case_a_base_has_what_light_robots_publish() {
+  start_node base 0
+  "$bin/warren-bench" peers --robots 3 --seconds 5 --tick-s 0.5 --tape-s 4 --columns 64 --lidar-rate 4 \
+    --base "127.0.0.1:$port_base" --key "$work/fleet.key" --port-base "$((30000 + $$ % 340 * 8))" \
+    --settle-s 25 --json >"$work/peers.json" 2>"$work/peers.log" || fail "$(cat "$work/peers.json")"
+  [ "$(field ticks <"$work/peers.json")" = 30 ] || fail "$(cat "$work/peers.json")"
+  for of in light-0 light-1 light-2; do has_all base "$of" || fail "the base has not all of $of"; done
+  stop_node base
+}
+
 case_a_robot_that_is_killed_comes_back_and_the_fleet_goes_on() {
   start_node robot-1 1
   start_node robot-2 2 1

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/warren-bench/peers_cli.hpp"
 #include "tools/warren-bench/transport_cli.hpp"
 
 namespace warren {
@@ -235,6 +236,7 @@ Command parse_command_line(int argc, char** argv) {
   RawWire wire;
   TransportCommand transport;
   TransportPeerOptions transport_peer;
+  PeersCommand peers;
   CLI::App* const integrate_app =
       app.add_subcommand("integrate", "scans into a map, beside OctoMap");
   CLI::App* const map_quality_app =
@@ -250,6 +252,8 @@ Command parse_command_line(int argc, char** argv) {
   CLI::App* const transport_peer_app = app.add_subcommand("transport-peer");
   CLI::App* const wire_app =
       app.add_subcommand("wire", "diff-maps into packets, beside other encodings and OctoMap");
+  CLI::App* const peers_app =
+      app.add_subcommand("peers", "many robots in one process, to load a base with");
   add_options(*integrate_app, integrate);
   add_options(*map_quality_app, map_quality);
   add_options(*terrain_app, terrain);
@@ -258,6 +262,7 @@ Command parse_command_line(int argc, char** argv) {
   add_options(*wire_app, wire);
   add_options(*transport_app, transport);
   add_options(*transport_peer_app, transport_peer);
+  add_options(*peers_app, peers);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -270,6 +275,7 @@ Command parse_command_line(int argc, char** argv) {
   if (wire_app->parsed()) return resolve(wire);
   if (transport_app->parsed()) return transport;
   if (transport_peer_app->parsed()) return transport_peer;
+  if (peers_app->parsed()) return peers;
   return resolve(integrate);
 }
 

@@ -6,6 +6,7 @@
 
 #include "tools/warren-bench/integrate.hpp"
 #include "tools/warren-bench/map_quality.hpp"
+#include "tools/warren-bench/peers_bench.hpp"
 #include "tools/warren-bench/pipeline_bench.hpp"
 #include "tools/warren-bench/terrain_quality.hpp"
 #include "tools/warren-bench/transport_bench.hpp"
@@ -48,13 +49,17 @@ struct TransportCommand {
   TransportOptions options;
   bool json = false;
 };
+struct PeersCommand {
+  PeersOptions options;
+  bool json = false;
+};
 struct ExitCommand {  // help was printed (0), or the line was wrong (2)
   int code = 0;
 };
 
 using Command = std::variant<IntegrateCommand, MapQualityCommand, TerrainCommand, PipelineCommand,
                              TerrainQualityCommand, TransportCommand, TransportPeerOptions,
-                             WireCommand, ExitCommand>;
+                             WireCommand, PeersCommand, ExitCommand>;
 Command parse_command_line(int argc, char** argv);
 
 }  // namespace warren

@@ -82,6 +82,14 @@ int execute(const TransportCommand& command) {
 
 int execute(const TransportPeerOptions& options) { return run_transport_peer(options); }
 
+int execute(const PeersCommand& command) {
+  const auto result = bench_peers(command.options);
+  if (!result) return fail(result.error());
+  print(command.json ? to_json(*result, command.options) + "\n" : to_text(*result));
+  const bool arrived = result->digests_equal == command.options.robots;
+  return arrived ? 0 : 1;
+}
+
 int execute(const ExitCommand& command) { return command.code; }
 
 }  // namespace
