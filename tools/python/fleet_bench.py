@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/python"))
 sys.dont_write_bytecode = True
 
-from warren_fleet import agreement, link, measures, processes, protocol  # noqa: E402
+from warren_fleet import agreement, costs, link, measures, processes, protocol  # noqa: E402
 from warren_fleet.driving import World, summary_of  # noqa: E402
 from warren_fleet.fleet import Fleet  # noqa: E402
 from warren_fleet.ledger import Ledger, Observer  # noqa: E402
@@ -24,7 +24,6 @@ DELAY_MS = 10
 LOSSES = (0.0, 0.05, 0.2, 0.4)
 RATES_BIT_S = (5e4, 2e5, 1e6, 1e7)
 APART_MIN = (1, 10, 60)
-ROBOTS = (5, 20, 50, 100)
 
 
 class Trial:
@@ -32,8 +31,7 @@ class Trial:
 
     def __init__(self, *, robots=1, seconds=60.0, tick_s=1.0, columns=1024, scan_hz=10.0, rate=1e6,
                  loss=0.0, shared=False, group_packets=False, stagger_s=0.0, resolution_m=0.1,
-                 range_m=20.0, pace="real", alone=False):
-        """alone: robots hear only the base and copy nothing, and nobody observes."""
+                 range_m=20.0, pace="real"):
         self._folder = tempfile.TemporaryDirectory(prefix="warren-bench-", ignore_cleanup_errors=True)
         self.work = pathlib.Path(self._folder.name)
         self.seconds, self.columns, self.scan_hz, self.pace = seconds, columns, scan_hz, pace
@@ -49,12 +47,7 @@ class Trial:
         self.rates = measures.Rates([node.name for node in self.fleet.nodes])
         self.options = ["--rate", rate, "--loss", loss, "--delay-ms", DELAY_MS, "--queue-ms", 400,
                         "--neighbour-retry-ms", 100, *(["--shared-airtime"] if shared else [])]
-        self.group_packets, self.alone = group_packets, alone
-        if alone:
-            for robot in self.fleet.robots:
-                robot.settings["share"] = ["policy: nothing"]
-            self.options += [word for a in range(1, robots + 1) for b in range(1, robots + 1)
-                             if a != b for word in ("--link", f"{a},{b},loss=1")]
+        self.group_packets = group_packets
         self.observers, self.sim, self.span = [], None, (0.0, 0.0)
 
     def __enter__(self):
@@ -63,8 +56,7 @@ class Trial:
         except BaseException:
             self.__exit__()
             raise
-        if not self.alone:
-            self.observers = [Observer(node, self.ledger) for node in self.fleet.nodes]
+        self.observers = [Observer(node, self.ledger) for node in self.fleet.nodes]
         return self
 
     def __exit__(self, *_):
@@ -103,8 +95,7 @@ class Trial:
 
     def settle(self, limit_s):
         """Seconds until all have all, counted from now; None if not in time."""
-        nodes = [self.fleet.base] if self.alone else self.fleet.nodes
-        took, missing = agreement.await_agreement(nodes, self.fleet.robots, limit_s)
+        took, missing = agreement.await_agreement(self.fleet.nodes, self.fleet.robots, limit_s)
         return None if missing else took
 
     def flush(self):
@@ -192,26 +183,13 @@ def crowd(quick):
                    "airtime_us_per_voxel": 1e6 * airtime_s / delivered if delivered else None}
 
 
-def at_the_base(quick):
-    """What many robots cost it, each with a little lidar and a link of its own."""
-    for robots in ((5,) if quick else ROBOTS):
-        with Trial(robots=robots, seconds=20.0 if quick else 60.0, stagger_s=20.0 / robots, columns=64,
-                   scan_hz=1.0, rate=1e7, resolution_m=0.15, range_m=10.0, alone=True) as trial:
-            base = trial.fleet.base
-            load, before, start = ProcessLoad(base.pid), received_bytes(base), time.monotonic()
-            scans = trial.drive()
-            seconds = time.monotonic() - start
-            cost = load.read()
-            got = received_bytes(base) - before
-            trial.flush()
-            took = trial.settle(120.0)
-            maps = [robot.status().map for robot in trial.fleet.robots]
-            yield {"robots": robots, **scans, "map_kb_per_s": got / 1000 / seconds,
-                   "voxels": sum(known.voxels_free + known.voxels_occupied for known in maps),
-                   "base": cost, "caught_up_after_s": took}
+def on_loopback(part):
+    return lambda quick: part(BIN, quick)
 
 
-PARTS = {"ticks": ticks, "lag": lag_grid, "catch_up": catch_up, "crowd": crowd, "base": at_the_base}
+PARTS = {"ticks": ticks, "lag": lag_grid, "catch_up": catch_up, "crowd": crowd,
+         "base": on_loopback(costs.at_the_base), "everything": on_loopback(costs.everything),
+         "store": on_loopback(costs.start_again)}
 
 
 def main():

@@ -16,7 +16,7 @@ class Node:
     def __init__(self, bin_dir, control_pb2, work, name, role="robot", settings=None):
         self.name, self.role = name, role
         self.work = pathlib.Path(work)
-        self.namespace = None
+        self.namespace = self.port = None
         self.ingest, self.socket = self.work / f"{name}.ingest", self.work / f"{name}.control"
         self.log = self.work / f"{name}.log"
         self.life, self._is_starting = 0, False
@@ -32,7 +32,7 @@ class Node:
     def join(self, key_file, *, namespace=None, port=7718, seeds=(), group_packets=False,
              group_port=GROUP_PORT):
         """Over radio0 of a namespace, or over the loopback interface to seeds."""
-        self.namespace = namespace
+        self.namespace, self.port = namespace, port
         where = "radio0" if namespace else "lo"
         mesh = [f"key_file: {key_file}", f"port: {port}", f"group_port: {group_port}",
                 "interfaces:", f"  - name: {where}", f"    group_packets: {str(group_packets).lower()}"]

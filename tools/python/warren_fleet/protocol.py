@@ -78,7 +78,10 @@ class Control:
             part = getattr(request, name)
             part.SetInParent()
             for key, value in fields.items():
-                setattr(part, key, value)
+                if isinstance(value, list):
+                    getattr(part, key).extend(value)
+                else:
+                    setattr(part, key, value)
         return request
 
     def close(self):
