@@ -18,13 +18,18 @@ std::ptrdiff_t g_peak = 0;
 #ifndef WARREN_HEAP_IS_NOT_OURS
 namespace {
 
-void* allocate(std::size_t bytes) {
+void* allocate_or_not(std::size_t bytes) noexcept {
   void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
-  if (memory == nullptr) throw std::bad_alloc();
-  if (g_counting) {
+  if (g_counting && memory != nullptr) {
     g_live += static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
     g_peak = std::max(g_peak, g_live);
   }
+  return memory;
+}
+
+void* allocate(std::size_t bytes) {
+  void* const memory = allocate_or_not(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
 
@@ -39,6 +44,12 @@ void release(void* memory) {
 
 void* operator new(std::size_t bytes) { return allocate(bytes); }
 void* operator new[](std::size_t bytes) { return allocate(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return allocate_or_not(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept {
+  return allocate_or_not(bytes);
+}
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete[](void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
