@@ -20,8 +20,10 @@ struct Bounds {
 std::optional<Bounds> bounds_of(double centre_m, double radius_m, double block_m) {
   const double low = std::floor((centre_m - radius_m) / block_m);
   const double high = std::floor((centre_m + radius_m) / block_m);
-  const double least = kKeyMin / kBlockEdge;
-  const double most = kKeyMax / kBlockEdge;
+  constexpr std::int32_t kLeast = kKeyMin / kBlockEdge;
+  constexpr std::int32_t kMost = kKeyMax / kBlockEdge;
+  const double least = kLeast;
+  const double most = kMost;
   if (!(low <= most && high >= least)) return std::nullopt;
   return Bounds{static_cast<std::int32_t>(std::max(low, least)),
                 static_cast<std::int32_t>(std::min(high, most))};
@@ -109,6 +111,7 @@ std::vector<KeyInterval> left_behind(const Holdings& held, const KeySet& wanted)
   std::stable_sort(runs.begin(), runs.end(),
                    [](const Run& a, const Run& b) { return a.highest < b.highest; });
   std::vector<KeyInterval> keys;
+  keys.reserve(runs.size());
   for (const Run& run : runs) keys.push_back(run.keys);
   return keys;
 }

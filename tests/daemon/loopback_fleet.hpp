@@ -30,7 +30,8 @@ class Loopback {
  public:
   Loopback() { REQUIRE(make_key_file(directory_ / "fleet.key").has_value()); }
 
-  Config config(const std::string& name, std::uint32_t node, std::vector<std::uint32_t> seeks) {
+  Config config(const std::string& name, std::uint32_t node,
+                const std::vector<std::uint32_t>& seeks) {
     Config config = name == "base" ? Config::of_base() : Config{};
     config.node.name = name;
     config.layer.tick_s = 0.1;
