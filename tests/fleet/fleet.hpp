@@ -43,8 +43,8 @@ struct FleetConfig {
   Planted planted = Planted::kNone;
 };
 
-// A whole node but for lidar, sockets and clock: replication, endpoint, store, a layer that it
-// writes.
+// What of a node speaks and remembers: replication, endpoint, a model of its store; and a layer
+// that it writes.
 struct FleetNode {
   Disk disk;
   std::vector<std::unique_ptr<Replica>> own;  // the last is written
