@@ -77,6 +77,8 @@ class FleetMesh {
  private:
   static constexpr Duration kBetweenCommits = std::chrono::milliseconds(50);
   static constexpr Duration kAfterRefusal = std::chrono::seconds(5);
+  static constexpr Duration kCountersEvery = std::chrono::seconds(10);
+  static constexpr MeshTime kAtOnce = MeshTime::min();
   static constexpr Duration kStoreLast = std::chrono::seconds(5);  // beyond drain()'s time
   struct Told {
     Revision revision;
@@ -90,7 +92,7 @@ class FleetMesh {
   void commit(MeshTime now);
   bool has_unstored() const {
     return !self_backlog_.empty() || replication_.has_unstored() ||
-           store_is_behind_ != behind_said_;
+           store_is_behind_ != behind_said_ || (drained_ != nullptr && counters_at_ == kAtOnce);
   }
   void look_for_older_store();
   void add_moved(StoreBatch& rows);
@@ -154,6 +156,7 @@ class FleetMesh {
   std::uint64_t batches_stored_ = 0;
   std::uint64_t batches_failed_ = 0;
   std::map<std::string, std::uint64_t> counters_before_;
+  MeshTime counters_at_ = kAtOnce;  // then they go along with a batch
   std::uint64_t telemetry_refused_ = 0;
   std::uint64_t copies_refused_ = 0;
   std::uint64_t unknown_statuses_ = 0;

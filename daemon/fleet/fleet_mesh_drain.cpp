@@ -27,6 +27,7 @@ bool lacks(const replication::Subscription& subscription, const replication::Hel
 void FleetMesh::drain(Duration at_most, std::function<void()> done) {
   drain_until_ = MeshRunner::now() + at_most;
   committed_ = std::min(committed_, MeshRunner::now() - kBetweenCommits);
+  counters_at_ = kAtOnce;
   drained_ = std::move(done);
   speak(MeshRunner::now());
   desk_.on_ticked(MeshRunner::now(), wall_clock_us(), true);

@@ -37,7 +37,10 @@ void FleetMesh::commit(MeshTime now) {
   const replication::StoreBatch batch = replication_.take_batch();
   StoreBatch rows = rows_of(batch);
   rows.self_layers = self_backlog_.take();
-  rows.counters = counters();
+  if (now >= counters_at_) {
+    rows.counters = counters();
+    counters_at_ = now + kCountersEvery;
+  }
   rows.is_behind = behind_said_ = store_is_behind_;
   add_moved(rows);
   store_.write(std::move(rows),

@@ -44,9 +44,10 @@ bool LayerBook::add_own(const Replica& layer) {
 bool LayerBook::restore(std::unique_ptr<Replica> copy) {
   if (layers_.size() >= limits_.layers_max || by_id_.contains(copy->id())) return false;
   // It may have been at rest when it was stored: all of it at once is many times as much.
-  if (memory_bytes() + copy->memory_bytes() > limits_.copies_bytes_max / 2) {
+  if (restored_bytes_ + copy->memory_bytes() > limits_.copies_bytes_max / 2) {
     (void)copy->rest(copy->holdings().highest({}), copy->regions());
   }
+  restored_bytes_ += copy->memory_bytes();
   HeldLayer& held = insert(copy->id());
   held.stored = copy->holdings();
   held.copy = std::move(copy);

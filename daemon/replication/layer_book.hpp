@@ -125,6 +125,7 @@ class LayerBook {
   std::vector<std::unique_ptr<HeldLayer>> layers_;
   std::map<LayerId, HeldLayer*> by_id_;
   std::deque<Batched> batched_;
+  std::size_t restored_bytes_ = 0;  // of copies
   bool out_of_memory_ = false;
   std::uint32_t applied_ = 0;  // packets since memory was looked at
   MeshTime reviewed_ = MeshTime::min();

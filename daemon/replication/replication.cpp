@@ -81,8 +81,8 @@ void Replication::look_behind(const HeldLayer& own, const Peer& from) {
   const Announcement* const said = from.find(own.id);
   if (said == nullptr) return;
   const Revision held = said->holdings.highest({});
-  if (held > own.highest())
-    ahead_of_us_.try_emplace(own.id, HeldAhead{from.id, held, own.highest()});
+  if (held <= own.highest()) return;
+  ahead_of_us_.try_emplace(own.id, HeldAhead{from.id, held, own.highest()});
 }
 
 void Replication::on_map(Peer& from, const mesh::MapArrived& map) {
